@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options of a case, as plain data. Each key's meaning, unit, range and rules are stated once, in describe_*.cpp.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/expression.hpp"
+#include "core/vec3.hpp"
+
+namespace luff::config {
+
+// ---- time, fluid, grid and its boundary ------------------------------------------------------------------------
+
+enum class TimeScheme { Rk3 };
+
+/// [time]; not used by a static analysis.
+struct TimeOptions {
+  double end = 0.0;
+  double step = 0.0;          ///< with cfl: the largest step
+  std::optional<double> cfl;  ///< max over cells of sum_d |U_d| dt / h_d
+  TimeScheme scheme = TimeScheme::Rk3;
+
+  bool operator==(const TimeOptions&) const = default;
+};
+
+struct InitialOptions {
+  VectorExpression velocity;
+
+  bool operator==(const InitialOptions&) const = default;
+};
+
+/// [fluid]
+struct FluidOptions {
+  double density = 0.0;
+  double viscosity = 0.0;       ///< dynamic
+  VectorExpression body_force;  ///< per volume
+  InitialOptions initial;
+
+  bool operator==(const FluidOptions&) const = default;
+};
+
+/// A stretch of an axis with cells of one size.
+struct RefineOptions {
+  double from = 0.0;
+  double to = 0.0;
+  double spacing = 0.0;
+
+  bool operator==(const RefineOptions&) const = default;
+};
+
+struct AxisOptions {
+  double from = 0.0;
+  double to = 0.0;
+  int cells = 0;  ///< in all, with those of `refine`
+  std::optional<RefineOptions> refine;
+
+  bool operator==(const AxisOptions&) const = default;
+};
+
+enum class GridKind { Box };
+
+/// [grid]; only with a fluid.
+struct GridOptions {
+  GridKind kind = GridKind::Box;
+  std::array<AxisOptions, 3> axes;  ///< x, y, z
+
+  bool operator==(const GridOptions&) const = default;
+};
+
+enum class SideType { Velocity, Wall, Slip, Symmetry, Periodic, Outflow };
+
+struct SideOptions {
+  SideType type = SideType::Wall;
+  VectorExpression value;  ///< velocity of the fluid (Velocity) or of the wall (Wall)
+
+  bool operator==(const SideOptions&) const = default;
+};
+
+/// The side at the low and the high end of each axis.
+inline constexpr std::array<const char*, 6> side_names{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+
+/// [boundary]; only with a fluid. Periodic sides come in pairs.
+struct BoundaryOptions {
+  std::array<SideOptions, 6> sides;  ///< in the order of side_names
+
+  bool operator==(const BoundaryOptions&) const = default;
+};
+
+// ---- shells and bodies -----------------------------------------------------------------------------------------
+
+enum class MeshShape { Rectangle };
+enum class MeshPattern { Diagonal, Alternating, Irregular };
+
+/// A parallelogram origin + s a + t b, 0 <= s, t <= 1, or the triangles of a file: exactly one of `shape` and `file`.
+struct MeshOptions {
+  std::optional<MeshShape> shape;
+  Vec3 origin = Vec3::Zero();
+  Vec3 a = Vec3::Zero();
+  Vec3 b = Vec3::Zero();
+  std::array<int, 2> divisions{0, 0};  ///< along a and b
+  MeshPattern pattern = MeshPattern::Diagonal;
+
+  std::optional<std::filesystem::path> file;  ///< absolute once read
+
+  bool operator==(const MeshOptions&) const = default;
+};
+
+struct RotateOptions {
+  Vec3 axis = Vec3::Zero();
+  double angle = 0.0;  ///< degrees, right-handed about the axis
+  Vec3 about = Vec3::Zero();
+
+  bool operator==(const RotateOptions&) const = default;
+};
+
+/// Where a mesh is put: x = R(scale X - about) + about + translate.
+struct PlacementOptions {
+  double scale = 1.0;
+  std::optional<RotateOptions> rotate;
+  Vec3 translate = Vec3::Zero();
+
+  bool operator==(const PlacementOptions&) const = default;
+};
+
+enum class MaterialModel { SaintVenantKirchhoff };
+
+struct MaterialOptions {
+  MaterialModel model = MaterialModel::SaintVenantKirchhoff;
+  double young = 0.0;
+  double poisson = 0.0;
+
+  bool operator==(const MaterialOptions&) const = default;
+};
+
+/// Rayleigh damping C = mass M + stiffness K.
+struct DampingOptions {
+  double mass = 0.0;
+  double stiffness = 0.0;
+
+  bool operator==(const DampingOptions&) const = default;
+};
+
+struct PlaneOptions {
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();
+
+  bool operator==(const PlaneOptions&) const = default;
+};
+
+/// Vertices of a shell chosen by their place in the reference configuration: exactly one of the four.
+struct WhereOptions {
+  std::optional<std::array<Vec3, 2>> edge;  ///< boundary edges on the line between two end points
+  std::optional<std::array<Vec3, 2>> box;   ///< lowest and highest corner
+  std::optional<PlaneOptions> plane;
+  std::optional<Vec3> point;  ///< the nearest vertex
+
+  bool operator==(const WhereOptions&) const = default;
+};
+
+enum class SupportType { Clamped, Hinged, Symmetry };
+enum class Component { X, Y, Z };
+
+/// [[shell.support]]: exactly one of `type` and `fixed`.
+struct SupportOptions {
+  WhereOptions where;
+  std::optional<SupportType> type;
+  std::optional<std::vector<Component>> fixed;  ///< displacement components held at zero
+
+  bool operator==(const SupportOptions&) const = default;
+};
+
+/// [[shell.load]]: exactly one of `force`, `pressure` and `traction`.
+struct LoadOptions {
+  WhereOptions where;
+  std::optional<VectorExpression> force;     ///< total, shared by the vertices
+  std::optional<Expression> pressure;        ///< follower, per current area, along minus the normal
+  std::optional<VectorExpression> traction;  ///< dead, per reference area
+
+  bool operator==(const LoadOptions&) const = default;
+};
+
+/// [[shell]]
+struct ShellOptions {
+  std::string name;
+  MeshOptions mesh;
+  PlacementOptions placement;
+  double thickness = 0.0;
+  double density = 0.0;
+  MaterialOptions material;
+  DampingOptions damping;
+  Vec3 gravity = Vec3::Zero();
+  std::vector<SupportOptions> supports;
+  std::vector<LoadOptions> loads;
+
+  bool operator==(const ShellOptions&) const = default;
+};
+
+enum class MotionType { Fixed, Prescribed };
+
+struct RotationOptions {
+  Vec3 axis = Vec3::Zero();
+  Vec3 about = Vec3::Zero();
+  Expression angle;  ///< degrees, of t
+
+  bool operator==(const RotationOptions&) const = default;
+};
+
+/// Rigid motion from where the mesh is put: rotation about a fixed axis, then translation; functions of t alone.
+struct MotionOptions {
+  MotionType type = MotionType::Fixed;
+  VectorExpression translation;
+  std::optional<RotationOptions> rotation;
+
+  bool operator==(const MotionOptions&) const = default;
+};
+
+/// [[body]]: a rigid thin sheet.
+struct BodyOptions {
+  std::string name;
+  MeshOptions mesh;
+  PlacementOptions placement;
+  MotionOptions motion;
+
+  bool operator==(const BodyOptions&) const = default;
+};
+
+// ---- how it is solved ------------------------------------------------------------------------------------------
+
+enum class Analysis { Dynamic, Static };
+enum class StructureSolver { Direct, Cg };
+
+/// [structure]
+struct StructureOptions {
+  Analysis analysis = Analysis::Dynamic;
+  int steps = 20;  ///< load steps of a static analysis, in which t goes from 0 to 1
+  StructureSolver solver = StructureSolver::Direct;
+
+  bool operator==(const StructureOptions&) const = default;
+};
+
+enum class PressureSolver { Multigrid, Petsc };
+enum class PressureTolerance { Default, Fast };
+
+/// [pressure]
+struct PressureOptions {
+  PressureSolver solver = PressureSolver::Multigrid;
+  PressureTolerance tolerance = PressureTolerance::Default;
+  int max_iterations = 200;
+
+  bool operator==(const PressureOptions&) const = default;
+};
+
+enum class ImmersedScheme { CutLink };
+
+/// [immersed]
+struct ImmersedOptions {
+  ImmersedScheme scheme = ImmersedScheme::CutLink;
+
+  bool operator==(const ImmersedOptions&) const = default;
+};
+
+enum class CouplingScheme { Strong, Loose };
+enum class CouplingAcceleration { QuasiNewton, Aitken, Constant };
+
+/// [coupling]
+struct CouplingOptions {
+  CouplingScheme scheme = CouplingScheme::Strong;
+  CouplingAcceleration acceleration = CouplingAcceleration::QuasiNewton;
+  double relaxation = 0.5;  ///< of `constant`; first factor of the other two
+  double tolerance = 1e-8;  ///< relative, of the un-relaxed residual, L-inf
+  int max_iterations = 30;
+
+  bool operator==(const CouplingOptions&) const = default;
+};
+
+// ---- output ----------------------------------------------------------------------------------------------------
+
+enum class FlowField { Velocity, Pressure, Vorticity, QCriterion };
+
+struct FieldOutputOptions {
+  double every = 0.0;
+  std::vector<FlowField> what{FlowField::Velocity, FlowField::Pressure, FlowField::Vorticity, FlowField::QCriterion};
+
+  bool operator==(const FieldOutputOptions&) const = default;
+};
+
+struct ShellOutputOptions {
+  double every = 0.0;
+
+  bool operator==(const ShellOutputOptions&) const = default;
+};
+
+/// [[output.probe]]: the vertex of `shell` nearest to `point` in the reference configuration, or a point in the flow.
+struct ProbeOptions {
+  std::string name;
+  std::optional<std::string> shell;
+  Vec3 point = Vec3::Zero();
+
+  bool operator==(const ProbeOptions&) const = default;
+};
+
+/// [output]
+struct OutputOptions {
+  std::optional<FieldOutputOptions> fields;  ///< none: not written
+  std::optional<ShellOutputOptions> shells;  ///< none: not written
+  bool plots = false;                        ///< make the pictures of `luff plot` when the run ends
+  std::vector<ProbeOptions> probes;
+
+  bool operator==(const OutputOptions&) const = default;
+};
+
+/// Everything a case file says.
+struct Case {
+  std::string title;
+  StructureOptions structure;
+  TimeOptions time;
+  std::optional<FluidOptions> fluid;  ///< none: a structure alone
+  GridOptions grid;
+  BoundaryOptions boundary;
+  std::vector<ShellOptions> shells;
+  std::vector<BodyOptions> bodies;
+  PressureOptions pressure;
+  ImmersedOptions immersed;
+  CouplingOptions coupling;
+  OutputOptions output;
+
+  bool operator==(const Case&) const = default;
+};
+
+}  // namespace luff::config
