@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "grid/grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+
+namespace luff::grid {
+
+namespace {
+
+Index3 count_cells(const std::array<std::vector<double>, 3>& faces)
+{
+  Index3 cells{};
+  for (int a = 0; a < 3; ++a) {
+    ensure(faces[a].size() >= 2, "an axis needs two face coordinates");
+    cells[a] = static_cast<int>(faces[a].size()) - 1;
+  }
+  return cells;
+}
+
+}  // namespace
+
+Grid::Grid(MPI_Comm comm, std::array<std::vector<double>, 3> faces, const std::array<bool, 3>& periodic)
+    : ranks_(comm, count_cells(faces), periodic), faces_(std::move(faces))
+{
+  for (int a = 0; a < 3; ++a)
+    make_axis(a);
+  make_metrics();
+}
+
+void Grid::make_axis(int axis)
+{
+  const int n = cells()[axis];
+  const std::vector<double>& x = faces_[axis];
+  std::vector<double>& h = widths_[axis];
+  h.resize(n + 2);
+  centres_[axis].resize(n + 2);
+  for (int i = 0; i < n; ++i) {
+    h[i + 1] = x[i + 1] - x[i];
+    if (!(h[i + 1] > 0.0))
+      fail_input("grid axis {}: face {} at {} does not lie above face {} at {}", "xyz"[axis], i + 1, x[i + 1], i, x[i]);
+    centres_[axis][i + 1] = 0.5 * (x[i] + x[i + 1]);
+  }
+  const bool wraps = ranks_.periodic(axis);
+  h.front() = wraps ? h[n] : h[1];
+  h.back() = wraps ? h[1] : h[n];
+  centres_[axis].front() = x.front() - 0.5 * h.front();
+  centres_[axis].back() = x.back() + 0.5 * h.back();
+
+  std::vector<double>& d = distances_[axis];
+  d.resize(n + 1);
+  for (int i = 0; i <= n; ++i)
+    d[i] = 0.5 * (h[i] + h[i + 1]);
+  const auto inverse = [](const std::vector<double>& values) {
+    std::vector<double> result(values.size());
+    std::transform(values.begin(), values.end(), result.begin(), [](double v) { return 1.0 / v; });
+    return result;
+  };
+  inverse_widths_[axis] = inverse(h);
+  inverse_distances_[axis] = inverse(d);
+}
+
+void Grid::make_metrics()
+{
+  kind_ = Kind::Uniform;
+  smallest_width_ = std::numeric_limits<double>::max();
+  for (int a = 0; a < 3; ++a) {
+    const auto [low, high] = std::minmax_element(widths_[a].begin(), widths_[a].end());
+    smallest_width_ = std::min(smallest_width_, *low);
+    // Widths of equal cells differ by the rounding of their face coordinates.
+    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() *
+                            std::max(std::abs(faces_[a].front()), std::abs(faces_[a].back()));
+    if (*high - *low > rounding)
+      kind_ = Kind::Rectilinear;
+    uniform_.h[a] = length(a) / cells()[a];
+    uniform_.inverse_h[a] = 1.0 / uniform_.h[a];
+    rectilinear_.h[a] = widths_[a].data() + 1;
+    rectilinear_.inverse_h[a] = inverse_widths_[a].data() + 1;
+    rectilinear_.d[a] = distances_[a].data();
+    rectilinear_.inverse_d[a] = inverse_distances_[a].data();
+  }
+}
+
+}  // namespace luff::grid
