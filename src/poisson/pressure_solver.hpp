@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Exact projection of volume fluxes: the interface that the fluid sees, whatever solves the pressure equation.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "grid/grid.hpp"
+#include "parallel/field.hpp"
+
+namespace luff::poisson {
+
+/// What holds on a side of the domain: p_n = 0 (walls, prescribed velocity, symmetry) or p = 0 on the face (outflow).
+/// Periodic sides come from the grid; what is given for them is not read.
+enum class SideCondition { Neumann, Dirichlet };
+/// Indexed [axis][0 low, 1 high].
+using SideConditions = std::array<std::array<SideCondition, 2>, 3>;
+
+/// The low face of `cell` normal to `axis`; the high side of the domain is the low face of cell n.
+struct FaceIndex {
+  int axis = 0;
+  Index3 cell{};
+
+  friend auto operator<=>(const FaceIndex&, const FaceIndex&) = default;
+};
+
+/// When a projection is good enough.
+struct Target {
+  double relative = 0.0;  ///< the 2-norm of the net outflows fell by this factor, or
+  double divergence =
+      0.0;             ///< max over cells of |net outflow| h / (V speed) is at most this; h: smallest width of the cell
+  double speed = 1.0;  ///< velocity scale of `divergence` [L/T]
+  int max_iterations = 100;
+};
+
+/// What a projection did.
+struct Report {
+  int iterations = 0;       ///< multigrid cycles
+  int refinements = 0;      ///< times the net outflows were recomputed from the corrected fluxes
+  double divergence = 0.0;  ///< max over cells of |net outflow| h / (V speed) on return, computed from the fluxes
+  Index3 worst_cell{};      ///< where
+  bool converged = false;   ///< the target was met
+};
+
+/// Makes volume fluxes divergence-free with the gradient of a pressure.
+///
+/// The gradient through a face of area A between cells P and N, whose centres are d apart, is
+///
+///   (G p) = A (p_N - p_P) / d          on open faces
+///   (G p) = A (0 - p_P) / (h_P / 2)    on a high Dirichlet side; A (p_P - 0) / (h_P / 2) on a low one
+///   (G p) = 0                          on blocked faces and Neumann sides.
+///
+/// Calls are collective over the grid's ranks.  Ranks that share a face end with the same bits of flux there, and any
+/// number of threads gives the same bits everywhere.
+class PressureSolver {
+ public:
+  virtual ~PressureSolver() = default;
+
+  /// Declares the faces that carry no pressure gradient (cut by a sheet), among the faces of owned cells, those on this
+  /// rank's edges included (both ranks that share a face list it).  Replaces the earlier set; cheap when little
+  /// changes.
+  virtual void set_blocked(std::span<const FaceIndex> faces) = 0;
+
+  /// U <- U - dt G p with net outflow zero from every cell.
+  ///
+  /// On entry U = U* on all faces of owned cells (volume fluxes, low-face convention) and p is the first guess in owned
+  /// cells.  On return p solves div(G p) = div(U*)/dt, its halo filled by exchange (halo cells beyond the sides of the
+  /// domain are left alone), and U holds the corrected fluxes on all faces of owned cells.
+  /// Where no pressure is prescribed, p has zero mean over each connected part of the fluid.
+  virtual Report project(const View3<double>& U, const View<double>& p, double dt, const Target& target) = 0;
+};
+
+struct SolverOptions {
+  std::string kind = "multigrid";  ///< "multigrid", or "petsc" (conjugate gradients with algebraic multigrid)
+};
+
+/// Collective.  Throws InputError for an unknown kind.
+[[nodiscard]] std::unique_ptr<PressureSolver> make_pressure_solver(const grid::Grid& grid, const SideConditions& sides,
+                                                                   const SolverOptions& options = {});
+
+}  // namespace luff::poisson
