@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Relaxation of a fixed point by Aitken's factor for vectors (kuettler_wall_2008).
+// Relaxation of a fixed point by Aitken's factor for vectors (kuettler_2008_fixed).
 #pragma once
 
 #include "coupling/acceleration.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Interface quasi-Newton with an inverse Jacobian from a least-squares model, IQN-ILS (degroote_2009).
+// Interface quasi-Newton with an inverse Jacobian from a least-squares model, IQN-ILS (degroote_2009_performance).
 #pragma once
 
 #include <deque>

@@ -48,7 +48,7 @@ inline LinearMap map_with_eigenvalues(const Eigen::VectorXd& eigenvalues, unsign
 }
 
 /// A string of n masses in a fluid much heavier than it: the added mass of mode m falls like 1/m, so that
-/// the eigenvalues are -ratio/m (Causin, Gerbeau & Nobile 2005).
+/// the eigenvalues are -ratio/m (causin_2005_added).
 inline LinearMap added_mass_map(int n, double ratio, unsigned seed)
 {
   Eigen::VectorXd eigenvalues(n);
