@@ -39,7 +39,8 @@ class Decomposition {
   /// Communicator of the ranks in line along axis 1 or 2, a one-dimensional Cartesian topology.
   [[nodiscard]] MPI_Comm line(int axis) const { return lines_[axis]; }
 
-  /// Whether this rank's block touches the low (side 0) or high (side 1) boundary of the domain; never on periodic axes.
+  /// Whether this rank's block touches the low (side 0) or high (side 1) boundary of the domain; never on periodic
+  /// axes.
   [[nodiscard]] bool at_boundary(int axis, int side) const
   {
     return !periodic_[axis] && (side == 0 ? owned_.lo[axis] == 0 : owned_.hi[axis] == cells_[axis]);

@@ -25,7 +25,7 @@ struct View {
   [[nodiscard]] std::ptrdiff_t stride(int axis) const { return axis == 0 ? 1 : axis == 1 ? stride_j : stride_k; }
 
   operator View<const T>() const  // NOLINT: adding const is always right
-    requires(!std::is_const_v<T>)
+      requires(!std::is_const_v<T>)
   {
     return {origin, stride_j, stride_k};
   }

@@ -23,7 +23,10 @@ namespace luff {
 /// Boxes below this many cells are not worth waking threads for (measured: a barrier costs about 4 us).
 inline constexpr std::ptrdiff_t serial_cells = 4096;
 
-inline int threads_for(const IndexBox& box) { return box.volume() < serial_cells ? 1 : omp_get_max_threads(); }
+inline int threads_for(const IndexBox& box)
+{
+  return box.volume() < serial_cells ? 1 : omp_get_max_threads();
+}
 
 /// kernel(i, j, k) for every cell of the box, in any order.
 template <class Kernel>

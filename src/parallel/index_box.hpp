@@ -10,16 +10,20 @@ namespace luff {
 
 using Index3 = std::array<int, 3>;
 
+/// The cell `by` cells away along an axis.
+[[nodiscard]] inline Index3 stepped(Index3 cell, int axis, int by)
+{
+  cell[axis] += by;
+  return cell;
+}
+
 /// The cells (i, j, k) with lo <= (i, j, k) < hi.  Indices are global: every rank numbers the same cell alike.
 struct IndexBox {
   Index3 lo{0, 0, 0};
   Index3 hi{0, 0, 0};
 
   [[nodiscard]] int extent(int axis) const { return std::max(0, hi[axis] - lo[axis]); }
-  [[nodiscard]] std::ptrdiff_t volume() const
-  {
-    return static_cast<std::ptrdiff_t>(extent(0)) * extent(1) * extent(2);
-  }
+  [[nodiscard]] std::ptrdiff_t volume() const { return static_cast<std::ptrdiff_t>(extent(0)) * extent(1) * extent(2); }
   [[nodiscard]] bool contains(int i, int j, int k) const
   {
     return i >= lo[0] && i < hi[0] && j >= lo[1] && j < hi[1] && k >= lo[2] && k < hi[2];

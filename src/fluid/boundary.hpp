@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Conditions on the six sides of the domain.
+//
+//   side       u in the halo cell (mirror of P)     U on the face         p in the halo cell   pressure system
+//   velocity   2 u_b - u_P                          A u_b . e             p_P                  Neumann
+//   wall       2 u_b - u_P  (u_b tangential)        0                     p_P                  Neumann
+//   slip       -u_P normal, +u_P tangential         0                     p_P                  Neumann
+//   symmetry   as slip                              0                     p_P                  Neumann
+//   outflow    u_P, or 0 where the flow comes back  A u_P . e, projected  -p_P (p = 0 at face) Dirichlet
+//   periodic   from the other side                  interior face         from the other side  -
+//
+// Outflow leaves the flux to the projection, which closes mass exactly with p = 0 on the face; where fluid flows back
+// in, it carries u_P/2, which adds no kinetic energy (docs/numerics/boundaries.md).
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "core/vec3.hpp"
+#include "grid/grid.hpp"
+#include "parallel/field.hpp"
+#include "poisson/pressure_solver.hpp"
+
+namespace luff::fluid {
+
+/// A vector field in space and time.  Constants are evaluated once.
+struct VectorFunction {
+  std::function<Vec3(const Vec3& x, double t)> value;
+  bool constant = true;  ///< the same everywhere and always
+
+  static VectorFunction uniform(const Vec3& v)
+  {
+    return {[v](const Vec3&, double) { return v; }, true};
+  }
+};
+
+enum class SideKind { Velocity, Wall, Slip, Symmetry, Outflow, Periodic };
+
+struct SideBoundary {
+  SideKind kind = SideKind::Slip;
+  VectorFunction velocity = VectorFunction::uniform(Vec3::Zero());  ///< of velocity sides and moving walls [L/T]
+};
+
+/// [axis][low, high]
+using Boundaries = std::array<std::array<SideBoundary, 2>, 3>;
+
+[[nodiscard]] poisson::SideConditions pressure_conditions(const Boundaries& boundaries);
+[[nodiscard]] std::array<bool, 3> periodic_axes(const Boundaries& boundaries);
+
+/// Sets halos and boundary fluxes of one rank's block.
+class BoundaryConditions {
+ public:
+  /// Throws InputError when the sides prescribe a net flow and no outflow side can take it.  Collective.
+  BoundaryConditions(const grid::Grid& grid, Boundaries boundaries);
+
+  /// Evaluates the prescribed velocities at time t.  Collective.
+  void evaluate_at(double t);
+
+  /// Halo of the centre velocity beyond the domain's sides; U tells outflow from backflow.
+  void fill_velocity(const View3<double>& u, const View3<const double>& U) const;
+  /// Halo of the pressure beyond the domain's sides.
+  void fill_pressure(const View<double>& p) const;
+  /// U* on the domain's sides; on outflow from the velocity u_old + increment of the cells beside them.
+  void set_fluxes(const View3<const double>& u_old, const View3<const double>& increment, const View3<double>& U) const;
+  /// U <- U - k A (p_N - p_P)/d on outflow sides, as the projection does.
+  void subtract_outflow_gradient(const View<const double>& p, double k, const View3<double>& U) const;
+
+  /// Largest prescribed speed at the time of the last evaluation [L/T].
+  [[nodiscard]] double largest_speed() const { return largest_speed_; }
+
+ private:
+  struct Side {
+    int axis = 0;
+    int end = 0;                 ///< 0 low, 1 high
+    IndexBox cells;              ///< owned cells beside the side
+    std::vector<Vec3> velocity;  ///< prescribed, per cell of `cells`, i fastest
+    [[nodiscard]] double outward() const { return end == 0 ? -1.0 : 1.0; }
+  };
+  template <class Visit>
+  void for_each_side_cell(const Side& side, Visit visit) const;
+  [[nodiscard]] const SideBoundary& boundary(const Side& side) const { return boundaries_[side.axis][side.end]; }
+  [[nodiscard]] bool prescribes_flow(const Side& side) const { return boundary(side).kind == SideKind::Velocity; }
+  void balance_fluxes();
+
+  const grid::Grid& grid_;
+  Boundaries boundaries_;
+  std::vector<Side> sides_;  ///< those that this rank touches
+  bool has_outflow_ = false;
+  bool evaluated_ = false;
+  double largest_speed_ = 0.0;
+};
+
+}  // namespace luff::fluid

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fluid/flow_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "parallel/vector_field.hpp"
+
+namespace luff::fluid {
+
+using immersed::SheetVelocity;
+using immersed::StageTime;
+
+namespace {
+
+/// Wray's coefficients [spalart_1991_spectral].  delta_s = gamma_s + zeta_s; c_s = time at the end of stage s.
+constexpr std::array<double, 3> gamma_{8.0 / 15.0, 5.0 / 12.0, 3.0 / 4.0};
+constexpr std::array<double, 3> zeta_{0.0, -17.0 / 60.0, -5.0 / 12.0};
+constexpr std::array<double, 3> delta_{8.0 / 15.0, 2.0 / 15.0, 1.0 / 3.0};
+constexpr std::array<double, 3> stage_end_{8.0 / 15.0, 2.0 / 3.0, 1.0};
+constexpr std::array<double, 3> stage_start_{0.0, 8.0 / 15.0, 2.0 / 3.0};
+
+}  // namespace
+
+FlowSolver::FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries boundaries,
+                       std::unique_ptr<poisson::PressureSolver> pressure)
+    : grid_(grid),
+      options_(std::move(options)),
+      boundary_(grid, std::move(boundaries)),
+      pressure_(std::move(pressure)),
+      halo_(grid.ranks()),
+      links_(grid),
+      state_{make_field3<double>(grid.owned()), make_field3<double>(grid.owned()), Field<double>(grid.owned()),
+             Field<double>(grid.owned())},
+      u_(make_field3<double>(grid.owned())),
+      U_(make_field3<double>(grid.owned())),
+      p_(grid.owned()),
+      p_load_(grid.owned()),
+      increment_(make_field3<double>(grid.owned())),
+      rate_(make_field3<double>(grid.owned()))
+{
+}
+
+void FlowSolver::start(const VectorFunction& velocity, double t_0)
+{
+  step_ = {.t_old = t_0, .t_new = t_0, .dt = 1.0, .index = 0};
+  const IndexBox& owned = grid_.owned();
+  for (int axis = 0; axis < 3; ++axis) {
+    const IndexBox faces = owned.faces(axis);
+    for (int k = faces.lo[2]; k < faces.hi[2]; ++k)
+      for (int j = faces.lo[1]; j < faces.hi[1]; ++j)
+        for (int i = faces.lo[0]; i < faces.hi[0]; ++i) {
+          Vec3 x = grid_.centre(i, j, k);
+          const Index3 c{i, j, k};
+          x[axis] = grid_.face(axis, c[axis]);
+          U_[axis](i, j, k) = grid_.area(axis, i, j, k) * velocity.value(x, t_0)[axis];
+        }
+  }
+  for_each_cell(owned, [u = views(u_), this, &velocity, t_0](int i, int j, int k) {
+    const Vec3 v = velocity.value(grid_.centre(i, j, k), t_0);
+    for (int d = 0; d < 3; ++d)
+      u[d](i, j, k) = v[d];
+  });
+  boundary_.evaluate_at(t_0);
+  for (auto& du : increment_)
+    du.fill(0.0);
+  boundary_.set_fluxes(views(std::as_const(u_)), views(std::as_const(increment_)), views(U_));
+  pressure_->set_blocked({});
+  state_.u = u_;
+  speed_ = largest_speed();
+  p_.fill(0.0);
+  project_stage(1.0, 0.0);
+  p_.fill(0.0);  // the potential that corrected the initial fluxes is no pressure
+  operators::recover_velocity(grid_, views(std::as_const(U_)), views(u_));
+  state_ = {u_, U_, p_, p_, 0};
+}
+
+void FlowSolver::begin_step(const TimeStep& step, const immersed::SheetMotion& predicted)
+{
+  step_ = step;
+  sheet_vertices_ = predicted.position.size();
+  boundary_.evaluate_at(step.t_old);
+  const double inflow = boundary_.largest_speed();
+  links_.freeze(predicted, step.dt, inflow > 0.0 ? inflow : largest_speed(), views(std::as_const(state_.U)));
+  std::vector<poisson::FaceIndex> blocked;
+  blocked.reserve(links_.faces().size());
+  for (const immersed::CutFace& face : links_.faces())
+    blocked.push_back({face.axis, face.cell});
+  pressure_->set_blocked(blocked);
+
+  double sheet_speed = 0.0;
+  for (const Vec3& v : predicted.velocity)
+    sheet_speed = std::max(sheet_speed, v.norm());
+  speed_ = std::max({largest_speed(), inflow, sheet_speed});
+  u_ = state_.u;
+  U_ = state_.U;
+  repair_pressure();
+  for (auto& du : increment_)
+    du.fill(0.0);
+
+  advance_stage(0);
+  bind_to_walls(0, /*current_velocity=*/false);
+  predict_with_old_pressure({stage_end_[0]});
+  recover({stage_end_[0]});
+
+  advance_stage(1);
+  bind_to_walls(1, /*current_velocity=*/false);
+  compute_fluxes({stage_end_[1]});
+  project_stage(stage_end_[1] * step.dt, options_.stage_reduction);
+  recover({stage_end_[1]});
+
+  advance_stage(2);
+}
+
+poisson::Report FlowSolver::project(std::span<const Vec3> sheet_velocity)
+{
+  links_.set_velocity(sheet_velocity);
+  const StageTime now{1.0, SheetVelocity::Current};
+  bind_to_walls(2, /*current_velocity=*/true);
+  compute_fluxes(now);
+  const poisson::Report report = project_stage(step_.dt, 0.0);
+  immersed::recover_velocity(grid_, links_, views(std::as_const(U_)), now, views(u_));
+  update_load_pressure();
+  return report;
+}
+
+void FlowSolver::accept()
+{
+  recover({1.0, SheetVelocity::Current});
+  links_.accept();
+  state_.u = u_;
+  std::swap(state_.U, U_);
+  std::swap(state_.p_before, state_.p);
+  state_.p = p_;
+  ++state_.steps;
+}
+
+/// du <- du + dt (gamma N(u) + zeta N_old), in every cell; the wall terms of cut cells follow in bind_to_walls().
+void FlowSolver::advance_stage(int stage)
+{
+  halo_.exchange(views(u_));
+  boundary_.fill_velocity(views(u_), views(std::as_const(U_)));
+  const operators::StageWeights weights{step_.dt * gamma_[stage], step_.dt * zeta_[stage]};
+  // Cut cells are computed first, from the increments and rates that the sweep over all cells overwrites.
+  replace_rates_of_cut_cells(stage, weights);
+  const Vec3 force = options_.acceleration.constant ? options_.acceleration.value(Vec3::Zero(), 0.0) : Vec3::Zero();
+  operators::advance_momentum(grid_, views(std::as_const(u_)), views(std::as_const(U_)), options_.viscosity, force,
+                              weights, views(rate_), views(increment_));
+  if (!options_.acceleration.constant)
+    add_varying_force(weights, step_.t_old + stage_start_[stage] * step_.dt);
+  for (std::size_t n = 0; n < links_.cells().size(); ++n)
+    for (int d = 0; d < 3; ++d)
+      rate_[d].view()(links_.cells()[n].cell) = terms_[n].explicit_rate[d];
+}
+
+void FlowSolver::replace_rates_of_cut_cells(int stage, const operators::StageWeights& weights)
+{
+  const std::vector<immersed::CutCell>& cells = links_.cells();
+  terms_.resize(cells.size());
+  explicit_increment_.resize(cells.size());
+  const bool constant = options_.acceleration.constant;
+  const double t = step_.t_old + stage_start_[stage] * step_.dt;
+#pragma omp parallel for schedule(static)
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    const Index3& c = cells[n].cell;
+    terms_[n] = immersed::momentum_terms(grid_, links_, cells[n], views(std::as_const(u_)), options_.viscosity,
+                                         {stage_start_[stage]}, {stage_end_[stage]});
+    const Vec3 x = constant ? Vec3(Vec3::Zero()) : grid_.centre(c[0], c[1], c[2]);
+    terms_[n].explicit_rate += options_.acceleration.value(x, t);
+    for (int d = 0; d < 3; ++d)
+      explicit_increment_[n][d] = increment_[d].view()(c) + weights.new_rate * terms_[n].explicit_rate[d] +
+                                  weights.old_rate * rate_[d].view()(c);
+  }
+}
+
+void FlowSolver::add_varying_force(const operators::StageWeights& weights, double t)
+{
+  for_each_cell(grid_.owned(), [this, &weights, t, N = views(rate_), du = views(increment_)](int i, int j, int k) {
+    const Vec3 f = options_.acceleration.value(grid_.centre(i, j, k), t);
+    for (int d = 0; d < 3; ++d) {
+      N[d](i, j, k) += f[d];
+      du[d](i, j, k) += weights.new_rate * f[d];
+    }
+  });
+}
+
+/// u* = [u^n + du + delta dt sum v_k u_b - c dt G p]/(1 + delta dt sum v_k) in cut cells, and du from it.
+void FlowSolver::bind_to_walls(int stage, bool current_velocity)
+{
+  const double implicit = delta_[stage] * step_.dt;
+  const double k = stage_end_[stage] * step_.dt;
+  const std::vector<immersed::CutCell>& cells = links_.cells();
+#pragma omp parallel for schedule(static)
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    const immersed::CutCell& cut = cells[n];
+    const Vec3 source =
+        current_velocity ? immersed::wall_source(grid_, links_, cut, options_.viscosity, {1.0, SheetVelocity::Current})
+                         : terms_[n].wall_source;
+    const Vec3 push = k * immersed::pressure_gradient(grid_, cut, p_.view());
+    const Vec3 u_old = at(views(std::as_const(state_.u)), cut.cell);
+    const Vec3 u_star =
+        (u_old + explicit_increment_[n] + implicit * source - push) / (1.0 + implicit * terms_[n].wall_rate);
+    for (int d = 0; d < 3; ++d)
+      increment_[d].view()(cut.cell) = u_star[d] + push[d] - u_old[d];
+  }
+}
+
+/// U* of a stage on all faces.
+void FlowSolver::compute_fluxes(const StageTime& time)
+{
+  halo_.exchange(views(increment_));
+  operators::interpolate_to_faces(grid_, views(std::as_const(state_.U)), views(std::as_const(increment_)), views(U_));
+  boundary_.evaluate_at(step_.t_old + time.fraction * step_.dt);
+  boundary_.set_fluxes(views(std::as_const(state_.u)), views(std::as_const(increment_)), views(U_));
+  links_.impose_fluxes(time, views(U_));
+}
+
+/// Stage 1: U^1 = U* - c dt G p^n.  Wray's second weight of stage 1 is zero, so its O(dt^2) error does not matter.
+void FlowSolver::predict_with_old_pressure(const StageTime& time)
+{
+  const double k = time.fraction * step_.dt;
+  halo_.exchange(views(increment_));
+  operators::interpolate_to_faces(grid_, views(std::as_const(state_.U)), views(std::as_const(increment_)), views(U_));
+  operators::subtract_pressure_gradient(grid_, p_.view(), k, views(U_));
+  boundary_.evaluate_at(step_.t_old + time.fraction * step_.dt);
+  boundary_.set_fluxes(views(std::as_const(state_.u)), views(std::as_const(increment_)), views(U_));
+  boundary_.subtract_outflow_gradient(p_.view(), k, views(U_));
+  links_.impose_fluxes(time, views(U_));
+}
+
+poisson::Report FlowSolver::project_stage(double dt, double reduction)
+{
+  if (speed_ == 0.0)  // at rest until now: whatever the forces of this stage have set in motion
+    speed_ = largest_flux_velocity();
+  const poisson::Report report = pressure_->project(views(U_), p_.view(), dt,
+                                                    {.relative = reduction,
+                                                     .divergence = options_.divergence,
+                                                     .speed = speed_ > 0.0 ? speed_ : 1.0,
+                                                     .max_iterations = options_.max_iterations});
+  if (!report.converged)
+    fail_run(
+        "step {}, t = {:.6g}: the pressure did not converge: max |div U| h/|U| = {:.2e} after {} iterations, worst "
+        "in cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}); a smaller time.step, or a finer grid where sheets come "
+        "close to each other, may help",
+        step_.index, step_.t_new, report.divergence, report.iterations, report.worst_cell[0], report.worst_cell[1],
+        report.worst_cell[2], grid_.centre(0, report.worst_cell[0]), grid_.centre(1, report.worst_cell[1]),
+        grid_.centre(2, report.worst_cell[2]));
+  boundary_.fill_pressure(p_.view());
+  return report;
+}
+
+void FlowSolver::recover(const StageTime& time)
+{
+  operators::recover_velocity(grid_, views(std::as_const(U_)), views(u_));
+  immersed::recover_velocity(grid_, links_, views(std::as_const(U_)), time, views(u_));
+}
+
+/// p <- p^n; in cells that changed sides, the mean over neighbours on the new side.
+void FlowSolver::repair_pressure()
+{
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  p_ = state_.p;
+  const auto p = p_.view();
+  for (const Index3& c : links_.flipped())
+    p(c) = unknown;
+  halo_.exchange({p});
+  std::vector<double> repaired;
+  for (const immersed::CutCell& cut : links_.cells()) {
+    if (!std::isnan(p(cut.cell)))
+      continue;
+    double sum = 0.0;
+    int known = 0;
+    for (int link = 0; link < 6; ++link) {
+      const Index3 beside = stepped(cut.cell, link / 2, link % 2 == 0 ? -1 : 1);
+      if (cut.face[link] != immersed::open_link || !grid_.owned().grown(1).contains(beside) || std::isnan(p(beside)))
+        continue;
+      sum += p(beside);
+      ++known;
+    }
+    repaired.push_back(known > 0 ? sum / known : state_.p.view()(cut.cell));
+  }
+  std::size_t n = 0;
+  for (const immersed::CutCell& cut : links_.cells())
+    if (std::isnan(p(cut.cell)))
+      p(cut.cell) = repaired[n++];
+  halo_.exchange({p});
+  boundary_.fill_pressure(p);
+}
+
+/// p at t^{n+1} from the half levels, 3/2 p^{n+1/2} - 1/2 p^{n-1/2}; not where the sheet swept over the centre, nor
+/// before two half levels are known.
+void FlowSolver::update_load_pressure()
+{
+  const double w = state_.steps > 1 ? 0.5 : 0.0;
+  const auto p_load = p_load_.view();
+  for_each_cell(grid_.owned(), [p_load, w, p = p_.view(), p_old = state_.p.view()] LUFF_KERNEL(int i, int j, int k) {
+    p_load(i, j, k) = (1.0 + w) * p(i, j, k) - w * p_old(i, j, k);
+  });
+  for (const Index3& c : links_.flipped())
+    p_load(c) = p_.view()(c);
+  halo_.exchange({p_load});
+  boundary_.fill_pressure(p_load);
+}
+
+immersed::LoadFields FlowSolver::load_fields() const
+{
+  return {.p = p_load_.view(), .u = views(u_), .density = options_.density, .viscosity = options_.viscosity};
+}
+
+immersed::SheetLoads FlowSolver::loads() const
+{
+  return immersed::sheet_loads(grid_, links_, load_fields(), sheet_vertices_);
+}
+
+std::vector<immersed::SideTraction> FlowSolver::tractions() const
+{
+  immersed::LoadFields fields = load_fields();
+  return immersed::side_tractions(grid_, links_, fields, sheet_vertices_);
+}
+
+double FlowSolver::largest_speed() const
+{
+  const auto u = views(state_.u);
+  return std::sqrt(grid_.ranks().max(max_cells(grid_.owned(), [u] LUFF_KERNEL(int i, int j, int k) {
+    return u[0](i, j, k) * u[0](i, j, k) + u[1](i, j, k) * u[1](i, j, k) + u[2](i, j, k) * u[2](i, j, k);
+  })));
+}
+
+double FlowSolver::largest_flux_velocity() const
+{
+  return operators::convective_rate(grid_, views(U_)) * grid_.smallest_width();
+}
+
+void FlowSolver::fill_halos()
+{
+  halo_.exchange(views(state_.u));
+  boundary_.fill_velocity(views(state_.u), views(std::as_const(state_.U)));
+  halo_.exchange({state_.p.view()});
+  boundary_.fill_pressure(state_.p.view());
+}
+
+double FlowSolver::convective_rate() const
+{
+  return operators::convective_rate(grid_, views(state_.U));
+}
+
+double FlowSolver::stable_step() const
+{
+  const double convective = convective_limit / std::max(convective_rate(), std::numeric_limits<double>::min());
+  const double diffusive = diffusive_limit / std::max(diffusive_rate(), std::numeric_limits<double>::min());
+  return std::min(convective, diffusive);
+}
+
+}  // namespace luff::fluid

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Incompressible flow around moving sheets: the third-order Runge-Kutta projection scheme "rk3".
+//
+//   du/dt = -div(u u) + nu lap u - grad p + f,   div u = 0,   u = u_b on sheets.
+//
+// Wray's three stages, projected in stages 2 and 3, with the diagonal of cut links implicit
+// (docs/numerics/time-scheme.md):
+//
+//   du <- du + dt (gamma_s N(u^{s-1}) + zeta_s N(u^{s-2}))
+//   cut cells:  u* = [u^n + du + delta_s dt sum_cut v_k u_b - c_s dt G p]/(1 + delta_s dt sum_cut v_k)
+//   faces:      U* = U^n + A <du>,  on cut faces A (u_b . e + eps exp(-c_s dt/tau))
+//   s = 1:      U^1 = U* - c_1 dt G p^n
+//   s = 2, 3:   div G p_s = div U*/(c_s dt),  U^s = U* - c_s dt G p_s
+//   u^s from U^s.
+//
+// What does not depend on the sheet's current velocity (stages 1, 2 and the rates of stage 3) is done once per step in
+// begin_step(); a coupling iteration, project(), touches the cut cells, the faces and the pressure of stage 3 only.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/time_step.hpp"
+#include "fluid/boundary.hpp"
+#include "immersed/cut_cells.hpp"
+#include "immersed/cut_links.hpp"
+#include "immersed/loads.hpp"
+#include "operators/momentum.hpp"
+#include "parallel/halo.hpp"
+#include "poisson/pressure_solver.hpp"
+
+namespace luff::fluid {
+
+struct FlowOptions {
+  double density = 1.0;
+  double viscosity = 0.0;                                               ///< kinematic [L^2/T]
+  VectorFunction acceleration = VectorFunction::uniform(Vec3::Zero());  ///< body force per mass [L/T^2]
+  double divergence = 5e-14;                                            ///< target of max |div U| h/|U| in stage 3
+  double stage_reduction = 0.1;  ///< relative residual left by the projection of stage 2 (0: as exact as stage 3)
+  int max_iterations = 100;      ///< of each pressure solve
+};
+
+/// The accepted flow at t^n: what a restart needs, with the offsets of cut faces.
+struct FlowState {
+  Field3<double> u;        ///< velocity at centres [L/T]
+  Field3<double> U;        ///< volume fluxes [L^3/T]
+  Field<double> p;         ///< kinematic pressure at t^{n-1/2} [L^2/T^2]
+  Field<double> p_before;  ///< at t^{n-3/2}
+  int steps = 0;           ///< accepted so far
+};
+
+/// Recommended limits of the scheme (docs/numerics/time-scheme.md): sum_d |U_d| dt/h_d, and nu dt sum_d 1/h_d^2.
+inline constexpr double convective_limit = 1.2;
+inline constexpr double diffusive_limit = 0.5;
+
+class FlowSolver {
+ public:
+  FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries boundaries,
+             std::unique_ptr<poisson::PressureSolver> pressure);
+
+  /// Sets and projects the velocity at t_0; no sheets yet.  Throws RunError when the projection fails.
+  void start(const VectorFunction& velocity, double t_0);
+
+  /// Stages 1 and 2, and the explicit part of stage 3, from the accepted state; the geometry of the sheets is frozen.
+  void begin_step(const TimeStep& step, const immersed::SheetMotion& predicted);
+
+  /// Stage 3 with the sheets' current velocity: trial fluxes, divergence-free in every cell, and pressure.
+  /// Repeatable within a step.  Throws RunError, naming step, time and place, when the pressure does not converge.
+  poisson::Report project(std::span<const Vec3> sheet_velocity);
+
+  /// Forces on the vertices of the sheets by the trial flow, the pressure extrapolated to t^{n+1}.
+  [[nodiscard]] immersed::SheetLoads loads() const;
+  /// Tractions per triangle and side by the trial (before accept) or accepted flow.
+  [[nodiscard]] std::vector<immersed::SideTraction> tractions() const;
+
+  /// Commits the trial flow as the state at t^{n+1}.
+  void accept();
+
+  [[nodiscard]] const FlowState& state() const { return state_; }
+  [[nodiscard]] const immersed::CutLinks& links() const { return links_; }
+  [[nodiscard]] const grid::Grid& grid() const { return grid_; }
+  [[nodiscard]] const FlowOptions& options() const { return options_; }
+  /// Halos of velocity and pressure of the accepted state, as output and probes need them.
+  void fill_halos();
+
+  /// sum_d |U_d|/h_d of the accepted state [1/T].
+  [[nodiscard]] double convective_rate() const;
+  /// nu sum_d 1/h_d^2 [1/T].
+  [[nodiscard]] double diffusive_rate() const { return options_.viscosity * operators::diffusive_rate(grid_); }
+  /// Largest step within the recommended limits.
+  [[nodiscard]] double stable_step() const;
+
+ private:
+  void advance_stage(int stage);
+  void add_varying_force(const operators::StageWeights& weights, double t);
+  void replace_rates_of_cut_cells(int stage, const operators::StageWeights& weights);
+  void bind_to_walls(int stage, bool current_velocity);
+  void compute_fluxes(const immersed::StageTime& time);
+  void predict_with_old_pressure(const immersed::StageTime& time);
+  poisson::Report project_stage(double dt, double reduction);
+  void recover(const immersed::StageTime& time);
+  void repair_pressure();
+  void update_load_pressure();
+  [[nodiscard]] double largest_speed() const;
+  [[nodiscard]] double largest_flux_velocity() const;
+  [[nodiscard]] immersed::LoadFields load_fields() const;
+
+  const grid::Grid& grid_;
+  FlowOptions options_;
+  BoundaryConditions boundary_;
+  std::unique_ptr<poisson::PressureSolver> pressure_;
+  HaloExchange halo_;
+  immersed::CutLinks links_;
+  TimeStep step_;
+  std::size_t sheet_vertices_ = 0;
+  double speed_ = 0.0;  ///< scale of the velocity in this step [L/T]
+
+  FlowState state_;
+  Field3<double> u_;          ///< velocity of the latest stage
+  Field3<double> U_;          ///< fluxes of the latest stage
+  Field<double> p_;           ///< pressure of the latest stage
+  Field<double> p_load_;      ///< pressure extrapolated to t^{n+1}
+  Field3<double> increment_;  ///< du = u^ - u^n, u^ the pressure-free velocity
+  Field3<double> rate_;       ///< N of the stage before
+
+  std::vector<immersed::CutCellTerms> terms_;  ///< of links_.cells()
+  std::vector<Vec3> explicit_increment_;       ///< du of cut cells before the implicit wall terms of the stage
+};
+
+}  // namespace luff::fluid

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Links between cell centres that a sheet cuts, the cells beside them, and the flux through their faces.
+//
+// Variant C, "cut-link": no cell is left out; each cut link is one-sided (docs/numerics/immersed.md).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/vec3.hpp"
+#include "grid/grid.hpp"
+#include "immersed/crossings.hpp"
+#include "parallel/field.hpp"
+
+namespace luff::immersed {
+
+/// Smallest relative distance of the sheet from a cell centre that stencils and loads see; the same everywhere.
+inline constexpr double theta_min = 0.1;
+
+/// Position, velocity and acceleration of the vertices of all sheets together.
+struct SheetMotion {
+  std::vector<Vec3> position;      ///< [L]
+  std::vector<Vec3> velocity;      ///< [L/T]
+  std::vector<Vec3> acceleration;  ///< [L/T^2]
+  std::vector<std::array<int, 3>> triangles;
+};
+
+/// Which velocity of the sheet a stage sees.
+enum class SheetVelocity {
+  Predicted,  ///< of the step's frozen predictor, u_b^0 - (1-c) dt a_b^0 at the time t^n + c dt
+  Current     ///< of the current coupling iterate, at t^{n+1}
+};
+
+/// A time inside a step, t^n + fraction dt, and the sheet's velocity there.
+struct StageTime {
+  double fraction = 1.0;
+  SheetVelocity sheet = SheetVelocity::Predicted;
+};
+
+/// The low face of `cell` normal to `axis`, cut by the sheet between the centres of P = cell - e_axis and N = cell.
+/// P sees the first of the hits on the link, N the last: two sheets closer than a cell leave a gap between them.
+struct CutFace {
+  int axis = 0;
+  Index3 cell{};
+  int first = 0;          ///< index of the hit next to P
+  int last = 0;           ///< index of the hit next to N
+  double offset = 0.0;    ///< flux velocity minus sheet velocity at t^n, eps [L/T]
+  double decay_time = 0;  ///< tau [T]
+};
+
+/// A cell with at least one cut link.  face[2a] is its low and face[2a+1] its high face along axis a: an index of
+/// CutLinks::faces(), or open_link.
+struct CutCell {
+  Index3 cell{};
+  std::array<int, 6> face{};
+};
+inline constexpr int open_link = -1;
+
+/// The cut links of one rank.  The geometry is frozen once per step; coupling iterations change the velocity only.
+class CutLinks {
+ public:
+  explicit CutLinks(const grid::Grid& grid);
+
+  /// Finds crossings, cut faces and cells, and starts the flux offsets from the accepted fluxes:
+  ///
+  ///   eps = the old offset where the link was cut at t^n, U^n_f/A_f - u_b^0 . e where it was not,  tau = d/speed.
+  ///
+  /// `speed` [L/T]: the reference speed of the flow; the sheet's own is used where it is larger.
+  void freeze(const SheetMotion& predicted, double dt, double speed, const View3<const double>& U_old);
+
+  /// Velocity u_b of the current coupling iterate at the vertices.
+  void set_velocity(std::span<const Vec3> velocity);
+
+  /// Commits the flux offsets, decayed over the step.
+  void accept();
+
+  [[nodiscard]] const std::vector<Crossing>& crossings() const { return crossings_; }
+  [[nodiscard]] const std::vector<CutFace>& faces() const { return faces_; }
+  [[nodiscard]] const std::vector<CutCell>& cells() const { return cells_; }
+  /// Owned cells whose centre the sheet swept over since the accepted step.
+  [[nodiscard]] const std::vector<Index3>& flipped() const { return flipped_; }
+  [[nodiscard]] const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
+  [[nodiscard]] const std::array<int, 3>& triangle(const Crossing& hit) const { return triangles_[hit.triangle]; }
+  /// Unit normal of the sheet at hit q.
+  [[nodiscard]] const Vec3& normal(int q) const { return normals_[q]; }
+  /// Links with more than one hit: sheets closer than a cell, or a fold.
+  [[nodiscard]] int multiple_hits() const
+  {
+    return static_cast<int>(crossings_.size()) - static_cast<int>(faces_.size());
+  }
+
+  /// Velocity of the sheet at a hit.
+  [[nodiscard]] Vec3 velocity(int hit, const StageTime& time) const
+  {
+    if (time.sheet == SheetVelocity::Current)
+      return velocity_[hit];
+    return predicted_velocity_[hit] - (1.0 - time.fraction) * dt_ * predicted_acceleration_[hit];
+  }
+  /// U_f = A (u_b . e + eps exp(-c dt/tau)), into the fluxes of every cut face.
+  void impose_fluxes(const StageTime& time, const View3<double>& U) const;
+
+ private:
+  void find_faces();
+  void find_cells();
+  void find_flipped();
+  void start_offsets(double speed, const View3<const double>& U_old);
+  [[nodiscard]] double face_velocity(const CutFace& face, const StageTime& time) const;
+  [[nodiscard]] std::int64_t key(int axis, const Index3& cell) const;
+  [[nodiscard]] const std::pair<std::int64_t, double>* old_offset(std::int64_t key) const;
+  [[nodiscard]] bool was_cut(int axis, const Index3& cell) const { return old_offset(key(axis, cell)) != nullptr; }
+
+  const grid::Grid& grid_;
+  double dt_ = 0.0;
+  std::vector<std::array<int, 3>> triangles_;
+  std::vector<Crossing> crossings_;
+  std::vector<Vec3> normals_;
+  std::vector<Vec3> predicted_velocity_;
+  std::vector<Vec3> predicted_acceleration_;
+  std::vector<Vec3> velocity_;
+  std::vector<CutFace> faces_;
+  std::vector<CutCell> cells_;
+  std::vector<Index3> flipped_;
+  Field3<int> mark_;  ///< index into faces_ of each face of the owned cells, or open_link
+  std::vector<std::pair<std::int64_t, double>> accepted_offsets_;  ///< sorted by face
+};
+
+}  // namespace luff::immersed

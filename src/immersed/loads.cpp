@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "immersed/loads.hpp"
+
+#include "parallel/vector_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace luff::immersed {
+
+namespace {
+
+/// Pressure and viscous force per area that the fluid on one side of a hit exerts on the sheet.
+struct HitTraction {
+  double pressure = 0.0;
+  Vec3 viscous = Vec3::Zero();
+};
+
+/// The side of a hit towards the centre of one of the owned cells next to it.
+///
+/// `side` is the link's side as seen from the cell: 1 when the hit lies on the cell's high link.
+HitTraction one_sided(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const CutCell& cut,
+                      int axis, int side)
+{
+  const CutFace& face = links.faces()[cut.face[2 * axis + side]];
+  const int hit = side == 1 ? face.first : face.last;
+  const double d = grid.distance(axis, face.cell[axis]);
+  const double theta = side == 1 ? links.crossings()[hit].theta : 1.0 - links.crossings()[hit].theta;
+  const double p_here = fields.p(cut.cell);
+  double slope = 0.0;  // of p towards the sheet
+  if (cut.face[2 * axis + 1 - side] == open_link) {
+    const double d_behind = grid.distance(axis, cut.cell[axis] + 1 - side);
+    slope = (p_here - fields.p(stepped(cut.cell, axis, side == 1 ? -1 : 1))) / d_behind;
+  }
+  const Vec3 u_b = links.velocity(hit, {1.0, SheetVelocity::Current});
+  return {
+      .pressure = fields.density * (p_here + theta * d * slope),
+      .viscous = fields.density * fields.viscosity / (std::max(theta, theta_min) * d) * (at(fields.u, cut.cell) - u_b)};
+}
+
+/// The side of a hit that looks into the gap between two hits of one link: mean pressure, Couette shear.
+HitTraction in_gap(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const CutFace& face,
+                   int hit, int other)
+{
+  const double d = grid.distance(face.axis, face.cell[face.axis]);
+  const double width = std::max(std::abs(links.crossings()[other].theta - links.crossings()[hit].theta), theta_min) * d;
+  const StageTime now{1.0, SheetVelocity::Current};
+  return {
+      .pressure = 0.5 * fields.density * (fields.p(face.cell) + fields.p(stepped(face.cell, face.axis, -1))),
+      .viscous = fields.density * fields.viscosity / width * (links.velocity(other, now) - links.velocity(hit, now))};
+}
+
+/// visit(hit, link_side, traction, area): every hit from both of its sides; link_side 0 is P's, 1 is N's.  Each rank
+/// visits the sides towards its own cells; gap sides belong to the owner of N.
+template <class Visit>
+void for_each_hit_side(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, Visit visit)
+{
+  for (const CutCell& cut : links.cells())
+    for (int axis = 0; axis < 3; ++axis) {
+      const double area = grid.area(axis, cut.cell[0], cut.cell[1], cut.cell[2]);
+      for (int side = 0; side < 2; ++side) {
+        const int f = cut.face[2 * axis + side];
+        if (f == open_link)
+          continue;
+        const CutFace& face = links.faces()[f];
+        visit(side == 1 ? face.first : face.last, 1 - side, one_sided(grid, links, fields, cut, axis, side), area);
+        if (side == 1)
+          continue;
+        for (int q = face.first; q < face.last; ++q) {
+          visit(q, 1, in_gap(grid, links, fields, face, q, q + 1), area);
+          visit(q + 1, 0, in_gap(grid, links, fields, face, q + 1, q), area);
+        }
+      }
+    }
+}
+
+void sum_over_ranks(const grid::Grid& grid, double* values, std::size_t count)
+{
+  MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(count), MPI_DOUBLE, MPI_SUM, grid.ranks().comm());
+}
+
+/// Area-weighted sums over the hits of one side of a triangle.
+struct SideSums {
+  double area = 0.0;
+  double pressure = 0.0;
+  double shear[3] = {0.0, 0.0, 0.0};
+};
+using TriangleSums = std::array<SideSums, 2>;
+
+/// Shares what lies around each vertex with the triangles that no hit sampled.
+void fill_from_neighbours(std::span<const std::array<int, 3>> triangles, std::size_t vertices,
+                          std::vector<TriangleSums>& sums)
+{
+  std::vector<TriangleSums> around(vertices);
+  const auto add = [](SideSums& to, const SideSums& from) {
+    to.area += from.area;
+    to.pressure += from.pressure;
+    for (int c = 0; c < 3; ++c)
+      to.shear[c] += from.shear[c];
+  };
+  for (std::size_t e = 0; e < triangles.size(); ++e)
+    for (const int v : triangles[e])
+      for (int side = 0; side < 2; ++side)
+        add(around[v][side], sums[e][side]);
+  for (std::size_t e = 0; e < triangles.size(); ++e)
+    for (int side = 0; side < 2; ++side)
+      if (sums[e][side].area == 0.0)
+        for (const int v : triangles[e])
+          add(sums[e][side], around[v][side]);
+}
+
+}  // namespace
+
+SheetLoads sheet_loads(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, std::size_t vertices)
+{
+  SheetLoads loads{std::vector<Vec3>(vertices, Vec3::Zero())};
+  for_each_hit_side(grid, links, fields, [&](int q, int link_side, const HitTraction& t, double area) {
+    const Crossing& hit = links.crossings()[q];
+    Vec3 force = area * t.viscous;
+    force[hit.axis] += link_side == 0 ? area * t.pressure : -area * t.pressure;
+    const auto& corner = links.triangle(hit);
+    for (int n = 0; n < 3; ++n)
+      loads.force[corner[n]] += hit.weights[n] * force;
+  });
+  sum_over_ranks(grid, loads.force.data()->data(), 3 * vertices);
+  return loads;
+}
+
+std::vector<SideTraction> side_tractions(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields,
+                                         std::size_t vertices)
+{
+  const auto& triangles = links.triangles();
+  std::vector<TriangleSums> sums(triangles.size());
+  for_each_hit_side(grid, links, fields, [&](int q, int link_side, const HitTraction& t, double area) {
+    const Crossing& hit = links.crossings()[q];
+    const int side = (link_side == 1) == (hit.side > 0) ? 1 : 0;
+    // A_d samples |n_d| dS; weighted by |n_d| again, the three directions together count the area once.
+    const double weight = area * std::abs(links.normal(q)[hit.axis]);
+    SideSums& sum = sums[hit.triangle][side];
+    sum.area += weight;
+    sum.pressure += weight * t.pressure;
+    for (int c = 0; c < 3; ++c)
+      sum.shear[c] += area * t.viscous[c];
+  });
+  sum_over_ranks(grid, &sums[0][0].area, sums.size() * sizeof(TriangleSums) / sizeof(double));
+  fill_from_neighbours(triangles, vertices, sums);
+  std::vector<SideTraction> tractions(triangles.size());
+  for (std::size_t e = 0; e < triangles.size(); ++e)
+    for (int side = 0; side < 2; ++side)
+      if (const SideSums& sum = sums[e][side]; sum.area > 0.0) {
+        tractions[e].pressure[side] = sum.pressure / sum.area;
+        tractions[e].shear[side] = Vec3(sum.shear[0], sum.shear[1], sum.shear[2]) / sum.area;
+      }
+  return tractions;
+}
+
+}  // namespace luff::immersed

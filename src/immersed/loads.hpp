@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Forces of the flow on sheets, by crossing quadrature.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "immersed/cut_links.hpp"
+
+namespace luff::immersed {
+
+/// What the flow does to a sheet.  The force on the flow is the opposite, link by link.
+struct SheetLoads {
+  std::vector<Vec3> force;  ///< on each vertex [M L/T^2]
+};
+
+/// Pressure and viscous traction on the two sides of one triangle: side 0 is the - side, side 1 the + side, where the
+/// triangle's normal points.
+struct SideTraction {
+  std::array<double, 2> pressure{0.0, 0.0};               ///< [M/(L T^2)]
+  std::array<Vec3, 2> shear{Vec3::Zero(), Vec3::Zero()};  ///< viscous traction on the sheet [M/(L T^2)]
+};
+
+/// The fields that loads are made of, with valid halos: kinematic pressure p and velocity u at t^{n+1}.
+struct LoadFields {
+  View<const double> p;
+  View3<const double> u;
+  double density = 1.0;
+  double viscosity = 0.0;  ///< kinematic
+};
+
+/// Force on every vertex.  Each cut link in direction d samples the projected area n_d dS = A_d:
+///
+///   f = rho A_d { -(p_R - p_L) e_d + nu [ (u_R - u_b)/((1-theta) d) - (u_b - u_L)/(theta d) ] },
+///
+/// theta clipped as in the momentum stencil; p_L, p_R extrapolated linearly to the sheet from the cells of the same
+/// side. The hit's force goes to the triangle's vertices with its barycentric weights: force and moment are conserved.
+/// Collective; the same numbers on every rank.
+[[nodiscard]] SheetLoads sheet_loads(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields,
+                                     std::size_t vertices);
+
+/// Mean pressure and shear per triangle and side over its hits; triangles without any take the mean of neighbours that
+/// share a vertex.  Collective.
+[[nodiscard]] std::vector<SideTraction> side_tractions(const grid::Grid& grid, const CutLinks& links,
+                                                       const LoadFields& fields, std::size_t vertices);
+
+}  // namespace luff::immersed
