@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rules between different tables of a case.
+#include "config/case_rules.hpp"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include "config/nearest.hpp"
+
+namespace luff::config {
+namespace {
+
+std::vector<std::string> surface_names(const Case& options)
+{
+  std::vector<std::string> names;
+  for (const auto& shell : options.shells)
+    names.push_back(shell.name);
+  for (const auto& body : options.bodies)
+    names.push_back(body.name);
+  return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name, std::size_t how_many)
+{
+  return std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(how_many), name) !=
+         names.begin() + static_cast<std::ptrdiff_t>(how_many);
+}
+
+void state_names_rule(Schema& s, const Case& options)
+{
+  const auto names = surface_names(options);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool is_shell = i < options.shells.size();
+    const auto key = fmt::format("{}.{}.name", is_shell ? "shell" : "body", is_shell ? i : i - options.shells.size());
+    s.rule(!contains(names, names[i], i), key, "must be unique: another shell or body has it");
+  }
+}
+
+void state_periodic_rule(Schema& s, const Case& options)
+{
+  const auto& sides = options.boundary.sides;
+  const auto is_periodic = [&](std::size_t side) { return sides[side].type == SideType::Periodic; };
+  for (std::size_t low = 0; low < sides.size(); low += 2) {
+    const std::size_t high = low + 1;
+    const std::size_t alone = is_periodic(low) ? low : high;
+    s.rule(is_periodic(low) == is_periodic(high), fmt::format("boundary.{}.type", side_names[alone]),
+           fmt::format("must be paired: {} is not periodic", side_names[alone == low ? high : low]));
+  }
+}
+
+bool is_inside(const Vec3& point, const GridOptions& grid)
+{
+  for (int d = 0; d < 3; ++d)
+    if (point[d] < grid.axes[d].from || point[d] > grid.axes[d].to)
+      return false;
+  return true;
+}
+
+void state_probe_rules(Schema& s, const Case& options)
+{
+  const auto surfaces = surface_names(options);
+  std::vector<std::string> names;
+  for (const auto& probe : options.output.probes) {
+    const auto key = fmt::format("output.probe.{}", names.size());
+    s.rule(!contains(names, probe.name, names.size()), key + ".name", "must be unique: another probe has it");
+    names.push_back(probe.name);
+    if (probe.shell) {
+      s.rule(contains(surfaces, *probe.shell, surfaces.size()), key + ".shell",
+             "must name a shell or a body" + suggestion(*probe.shell, surfaces));
+    } else {
+      s.rule(options.fluid.has_value(), key, "must name a `shell`: without [fluid] there is no flow to stand in");
+      s.rule(!options.fluid || is_inside(probe.point, options.grid), key + ".point", "must lie in the grid");
+    }
+  }
+}
+
+}  // namespace
+
+void state_case_rules(Schema& s, const Case& options)
+{
+  const bool flows = options.fluid.has_value();
+  s.rule(flows || !options.shells.empty(), "", "must have something to solve: [fluid], [[shell]] or both");
+  s.rule(!flows || options.structure.analysis == Analysis::Dynamic, "structure.analysis",
+         "must be \"dynamic\" with a [fluid]");
+  s.rule(flows || options.bodies.empty(), "body", "must be left out without a [fluid]");
+  s.rule(flows || !options.output.fields, "output.fields", "must be left out without a [fluid]");
+  state_names_rule(s, options);
+  state_periodic_rule(s, options);
+  state_probe_rules(s, options);
+}
+
+}  // namespace luff::config

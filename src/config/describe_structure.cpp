@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Keys of [[shell]] and [[body]].
+#include "config/describe.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace luff::config {
+namespace {
+
+constexpr double largest_poisson_ratio = 0.5;  // incompressible; plane stress stays finite there
+
+void describe_name(Schema& s, std::string& name)
+{
+  s.key("name", name,
+        {.doc = "Its name in messages and in the names of output files; no two shells or bodies share one.",
+         .required = true});
+  const bool fit = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '-' || c == '_';
+  });
+  s.rule(fit, "name", "must be made of letters, digits, '-' and '_': files are named after it");
+}
+
+void describe_placement(Schema& s, PlacementOptions& placement)
+{
+  s.key("scale", placement.scale, {.doc = "Factor on the mesh's coordinates; applied first.", .range = positive});
+  s.table("rotate", placement.rotate, {.doc = "Rotation of the mesh; applied after `scale`."});
+  s.key("translate", placement.translate, {.doc = "Translation of the mesh; applied last.", .unit = "m"});
+}
+
+bool is_readable_mesh(const std::filesystem::path& file)
+{
+  return file.extension() == ".stl" || file.extension() == ".obj" || file.extension() == ".ply" ||
+         file.extension() == ".vtp";
+}
+
+}  // namespace
+
+void describe(Schema& s, ShellOptions& shell)
+{
+  describe_name(s, shell.name);
+  s.table("mesh", shell.mesh, {.doc = "Triangles of the middle surface, free of stress as placed.", .required = true});
+  describe_placement(s, shell.placement);
+  s.key("thickness", shell.thickness, {.doc = "Thickness.", .unit = "m", .range = positive, .required = true});
+  s.key("density", shell.density,
+        {.doc = "Density of the material.", .unit = "kg/m^3", .range = positive, .required = true});
+  s.table("material", shell.material, {.doc = "Law of stress and strain.", .required = true});
+  s.table("damping", shell.damping, {.doc = "Rayleigh damping."});
+  s.key("gravity", shell.gravity, {.doc = "Acceleration of gravity acting on the shell.", .unit = "m/s^2"});
+  s.list("support", shell.supports, {.doc = "Vertices that are held; edges without support are free."});
+  s.list("load", shell.loads, {.doc = "Loads besides gravity and the flow's."});
+}
+
+void describe(Schema& s, MeshOptions& mesh)
+{
+  s.exactly_one_of({"shape", "file"});
+  s.key("shape", mesh.shape, {.doc = "Make the mesh: `rectangle`, the parallelogram of `a` and `b` at `origin`."});
+  s.when(mesh.shape == MeshShape::Rectangle, "`shape = \"rectangle\"`", [&] {
+    s.key("origin", mesh.origin, {.doc = "A corner.", .unit = "m", .required = true});
+    s.key("a", mesh.a, {.doc = "First side, from the corner.", .unit = "m", .required = true});
+    s.key("b", mesh.b,
+          {.doc = "Second side, from the corner; the normal points along a x b.", .unit = "m", .required = true});
+    s.key("divisions", mesh.divisions,
+          {.doc = "Squares along `a` and `b`, two triangles each.",
+           .range = at_least_one,
+           .required = true,
+           .scaling = Scaling::Count});
+    s.key("pattern", mesh.pattern,
+          {.doc = "Diagonals of the squares: all one way, every other one turned, or irregular with vertices moved at "
+                  "random (always the same)."});
+    s.rule(mesh.a.cross(mesh.b).norm() > 0.0, "b", "must not be parallel to `a`, and neither may be zero");
+  });
+  s.key("file", mesh.file, {.doc = "Read the mesh from an STL, OBJ, PLY or VTP file."});
+  s.rule(!mesh.file || is_readable_mesh(*mesh.file), "file", "must end in .stl, .obj, .ply or .vtp");
+}
+
+void describe(Schema& s, RotateOptions& rotate)
+{
+  s.key("axis", rotate.axis, {.doc = "Direction of the axis, of any length.", .required = true});
+  s.key("angle", rotate.angle, {.doc = "Angle, right-handed about the axis.", .unit = "degrees", .required = true});
+  s.key("about", rotate.about, {.doc = "A point on the axis.", .unit = "m"});
+  s.rule(!rotate.axis.isZero(0.0), "axis", "must not be zero");
+}
+
+void describe(Schema& s, MaterialOptions& material)
+{
+  s.key("model", material.model,
+        {.doc = "Saint-Venant-Kirchhoff: stress linear in the Green-Lagrange strain, plane stress.", .required = true});
+  s.key("young", material.young, {.doc = "Young's modulus.", .unit = "Pa", .range = positive, .required = true});
+  s.key("poisson", material.poisson,
+        {.doc = "Poisson's ratio.",
+         .range = {.low = -1.0, .high = largest_poisson_ratio, .with_low = false},
+         .required = true});
+}
+
+void describe(Schema& s, DampingOptions& damping)
+{
+  s.key("mass", damping.mass,
+        {.doc = "Factor f_m of the mass matrix in C = f_m M + f_k K.", .unit = "1/s", .range = not_negative});
+  s.key("stiffness", damping.stiffness,
+        {.doc = "Factor f_k of the stiffness matrix.", .unit = "s", .range = not_negative});
+}
+
+void describe(Schema& s, SupportOptions& support)
+{
+  s.table("where", support.where, {.doc = "The vertices held.", .required = true});
+  s.exactly_one_of({"type", "fixed"});
+  s.key("type", support.type,
+        {.doc = "`clamped`: neither moves nor turns; `hinged`: does not move; `symmetry`: stays in the plane of "
+                "symmetry and normal to it."});
+  s.key("fixed", support.fixed, {.doc = "Components of the displacement that are zero."});
+}
+
+void describe(Schema& s, LoadOptions& load)
+{
+  s.table("where", load.where, {.doc = "The vertices loaded.", .required = true});
+  s.exactly_one_of({"force", "pressure", "traction"});
+  s.key("force", load.force, {.doc = "Total force, shared by the vertices; keeps its direction.", .unit = "N"});
+  s.key("pressure", load.pressure,
+        {.doc = "Pressure on the side the normal points to; follows the surface.", .unit = "Pa"});
+  s.key("traction", load.traction,
+        {.doc = "Force per area of the reference configuration; keeps its direction.", .unit = "Pa"});
+}
+
+void describe(Schema& s, WhereOptions& where)
+{
+  s.exactly_one_of({"edge", "box", "plane", "point"});
+  s.key("edge", where.edge,
+        {.doc = "On the mesh's boundary between these two points, in a straight line.", .unit = "m"});
+  s.key("box", where.box, {.doc = "In the box with this lowest and this highest corner.", .unit = "m"});
+  s.table("plane", where.plane, {.doc = "On a plane."});
+  s.key("point", where.point, {.doc = "The one vertex nearest to this point.", .unit = "m"});
+  if (where.box)
+    s.rule(((*where.box)[0].array() <= (*where.box)[1].array()).all(), "box",
+           "must be [lowest corner, highest corner]");
+  if (where.edge)
+    s.rule((*where.edge)[0] != (*where.edge)[1], "edge", "must have two different end points");
+}
+
+void describe(Schema& s, PlaneOptions& plane)
+{
+  s.key("point", plane.point, {.doc = "A point of the plane.", .unit = "m", .required = true});
+  s.key("normal", plane.normal, {.doc = "Its normal, of any length.", .required = true});
+  s.rule(!plane.normal.isZero(0.0), "normal", "must not be zero");
+}
+
+void describe(Schema& s, BodyOptions& body)
+{
+  describe_name(s, body.name);
+  s.table("mesh", body.mesh, {.doc = "Triangles of a thin rigid sheet.", .required = true});
+  describe_placement(s, body.placement);
+  s.table("motion", body.motion, {.doc = "How it moves from where it is placed. Absent: it doesn't."});
+}
+
+void describe(Schema& s, MotionOptions& motion)
+{
+  s.key("type", motion.type, {.doc = "`fixed`, or `prescribed` by the keys below."});
+  s.when(motion.type == MotionType::Prescribed, "`type = \"prescribed\"`", [&] {
+    s.key("translation", motion.translation,
+          {.doc = "Displacement, of t; applied after the rotation.", .unit = "m", .time_only = true});
+    s.table("rotation", motion.rotation, {.doc = "Rotation about a fixed axis."});
+  });
+}
+
+void describe(Schema& s, RotationOptions& rotation)
+{
+  s.key("axis", rotation.axis, {.doc = "Direction of the axis, of any length.", .required = true});
+  s.key("about", rotation.about, {.doc = "A point on the axis.", .unit = "m"});
+  s.key("angle", rotation.angle,
+        {.doc = "Angle, of t, right-handed about the axis.", .unit = "degrees", .required = true, .time_only = true});
+  s.rule(!rotation.axis.isZero(0.0), "axis", "must not be zero");
+}
+
+}  // namespace luff::config

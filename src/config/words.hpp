@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The words a case file uses for the enumerators of its options.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "config/options.hpp"
+
+namespace luff::config {
+
+/// The word of each enumerator, and the words of the case-file language that this version cannot run yet.
+template <class Enum>
+struct Words {
+  std::vector<std::pair<Enum, std::string>> available;
+  std::vector<std::string> later = {};
+};
+
+inline Words<TimeScheme> words(TimeScheme)
+{
+  return {{{TimeScheme::Rk3, "rk3"}}, {"sbdf2", "newton-krylov"}};
+}
+
+inline Words<GridKind> words(GridKind)
+{
+  return {{{GridKind::Box, "box"}}, {"pipe", "aorta", "file"}};
+}
+
+inline Words<SideType> words(SideType)
+{
+  return {{{SideType::Velocity, "velocity"},
+           {SideType::Wall, "wall"},
+           {SideType::Slip, "slip"},
+           {SideType::Symmetry, "symmetry"},
+           {SideType::Periodic, "periodic"},
+           {SideType::Outflow, "outflow"}},
+          {"pressure"}};
+}
+
+inline Words<MeshShape> words(MeshShape)
+{
+  return {{{MeshShape::Rectangle, "rectangle"}}, {"disk", "cylinder", "valve"}};
+}
+
+inline Words<MeshPattern> words(MeshPattern)
+{
+  return {{{MeshPattern::Diagonal, "diagonal"},
+           {MeshPattern::Alternating, "alternating"},
+           {MeshPattern::Irregular, "irregular"}}};
+}
+
+inline Words<MaterialModel> words(MaterialModel)
+{
+  return {{{MaterialModel::SaintVenantKirchhoff, "saint-venant-kirchhoff"}}, {"neo-hookean", "may-newman-yin"}};
+}
+
+inline Words<SupportType> words(SupportType)
+{
+  return {{{SupportType::Clamped, "clamped"}, {SupportType::Hinged, "hinged"}, {SupportType::Symmetry, "symmetry"}}};
+}
+
+inline Words<Component> words(Component)
+{
+  return {{{Component::X, "x"}, {Component::Y, "y"}, {Component::Z, "z"}}};
+}
+
+inline Words<MotionType> words(MotionType)
+{
+  return {{{MotionType::Fixed, "fixed"}, {MotionType::Prescribed, "prescribed"}}, {"free"}};
+}
+
+inline Words<Analysis> words(Analysis)
+{
+  return {{{Analysis::Dynamic, "dynamic"}, {Analysis::Static, "static"}}, {"arc-length"}};
+}
+
+inline Words<StructureSolver> words(StructureSolver)
+{
+  return {{{StructureSolver::Direct, "direct"}, {StructureSolver::Cg, "cg"}}};
+}
+
+inline Words<PressureSolver> words(PressureSolver)
+{
+  return {{{PressureSolver::Multigrid, "multigrid"}, {PressureSolver::Petsc, "petsc"}}};
+}
+
+inline Words<PressureTolerance> words(PressureTolerance)
+{
+  return {{{PressureTolerance::Default, "default"}, {PressureTolerance::Fast, "fast"}}};
+}
+
+inline Words<ImmersedScheme> words(ImmersedScheme)
+{
+  return {{{ImmersedScheme::CutLink, "cut-link"}}, {"curvib"}};
+}
+
+inline Words<CouplingScheme> words(CouplingScheme)
+{
+  return {{{CouplingScheme::Strong, "strong"}, {CouplingScheme::Loose, "loose"}}};
+}
+
+inline Words<CouplingAcceleration> words(CouplingAcceleration)
+{
+  return {{{CouplingAcceleration::QuasiNewton, "quasi-newton"},
+           {CouplingAcceleration::Aitken, "aitken"},
+           {CouplingAcceleration::Constant, "constant"}}};
+}
+
+inline Words<FlowField> words(FlowField)
+{
+  return {{{FlowField::Velocity, "velocity"},
+           {FlowField::Pressure, "pressure"},
+           {FlowField::Vorticity, "vorticity"},
+           {FlowField::QCriterion, "q_criterion"}}};
+}
+
+/// The word of one enumerator.
+template <class Enum>
+std::string name_of(Enum value)
+{
+  for (const auto& [enumerator, word] : words(Enum{}).available)
+    if (enumerator == value)
+      return word;
+  return "?";
+}
+
+}  // namespace luff::config
