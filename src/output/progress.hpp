@@ -13,11 +13,11 @@ namespace luff::output {
 struct StepProgress {
   long step = 0;
   double t = 0;  ///< [T]
-  std::optional<double> cfl;
-  std::optional<int> pressure_iterations;
-  std::optional<int> coupling_iterations;
-  std::string probe_name;
-  std::optional<double> probe;
+  std::optional<double> cfl = {};
+  std::optional<int> pressure_iterations = {};
+  std::optional<int> coupling_iterations = {};
+  std::string probe_name = {};
+  std::optional<double> probe = {};
 };
 
 enum class ProgressStyle { Live, Plain };
@@ -57,7 +57,7 @@ class Progress {
   std::ostream& out_;
   ProgressOptions options_;
   Clock clock_;
-  std::optional<double> last_clock_;
+  double last_clock_;
   double last_t_ = 0;
   std::optional<double> seconds_per_step_;
   double time_per_step_ = 0;

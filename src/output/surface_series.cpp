@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Triangulated surfaces with data by point and by triangle.
+#include <fmt/format.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include "core/error.hpp"
+#include "output/series.hpp"
+#include "output/vtk_data.hpp"
+
+namespace luff::output {
+
+namespace {
+
+vtkSmartPointer<vtkPoints> vtk_points(const std::vector<Vec3>& positions)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  for (const Vec3& x : positions)
+    points->InsertNextPoint(x.data());
+  return points;
+}
+
+vtkSmartPointer<vtkCellArray> vtk_triangles(const std::vector<std::array<int, 3>>& triangles)
+{
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  for (const auto& [a, b, c] : triangles)
+    cells->InsertNextCell({a, b, c});
+  return cells;
+}
+
+vtkSmartPointer<vtkPolyData> vtk_surface(const SurfaceSnapshot& snapshot, double time)
+{
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->SetPoints(vtk_points(snapshot.points));
+  surface->SetPolys(vtk_triangles(snapshot.triangles));
+  add_fields(*surface->GetPointData(), snapshot.point_fields, snapshot.points.size());
+  add_fields(*surface->GetCellData(), snapshot.triangle_fields, snapshot.triangles.size());
+  set_time(*surface, time);
+  return surface;
+}
+
+}  // namespace
+
+SurfaceSeries::SurfaceSeries(const RunFolder& folder, std::string name)
+    : folder_(folder), name_(std::move(name)), index_(folder.file(name_ + ".pvd"))
+{
+}
+
+void SurfaceSeries::write(double time, const SurfaceSnapshot& snapshot)
+{
+  if (!folder_.writes())
+    return;
+  const std::string file = fmt::format("{}/{}_{:06}.vtp", name_, name_, count_);
+  std::error_code ignored;  // what matters is whether the file can be written
+  std::filesystem::create_directories(folder_.file(name_), ignored);
+  const auto surface = vtk_surface(snapshot, time);
+  const auto writer = vtkSmartPointer<vtkXMLPolyDataWriter>::New();
+  if (!write_vtk(*writer, *surface, folder_.file(file)))
+    fail_run("{}: cannot be written at t = {}; is the disk full, or the folder gone?", folder_.file(file).string(),
+             time);
+  index_.add(time, file);
+  ++count_;
+}
+
+}  // namespace luff::output
