@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Crossings by exact signs and one symbolic displacement of the grid; the reasoning is in docs/numerics/crossings.md.
+#include "immersed/crossings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "immersed/predicates.hpp"
+
+namespace luff::immersed {
+
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+struct Range {
+  int first = 0;
+  int last = 0;  ///< one past the end
+};
+
+/// Centres c along an axis that lie within [low, high] once displaced: low < c <= high.
+Range displaced_centres_within(const grid::Grid& grid, int axis, double low, double high)
+{
+  const auto first_above = [&](double x) {
+    int from = 0;
+    int to = grid.cells()[axis];
+    while (from < to) {
+      const int middle = (from + to) / 2;
+      if (grid.centre(axis, middle) > x)
+        to = middle;
+      else
+        from = middle + 1;
+    }
+    return from;
+  };
+  Range range{first_above(low), 0};
+  range.last = range.first;
+  while (range.last < grid.cells()[axis] && grid.centre(axis, range.last) <= high)
+    ++range.last;
+  return range;
+}
+
+Range clipped(const Range& range, int first, int last)
+{
+  return {std::max(range.first, first), std::min(range.last, last)};
+}
+
+Point2 projected(const Vec3& x, int b, int c)
+{
+  return {x[b], x[c]};
+}
+
+int sign(double value)
+{
+  return (value > 0.0) - (value < 0.0);
+}
+
+/// Side of the edge (from, to) on which the displaced point q - (e_b, e_c) lies: +1 left, -1 right, 0 when the edge has
+/// no length.  `area` is (from - q) x (to - q); where it vanishes, e_b (to_c - from_c) - e_c (to_b - from_b) decides,
+/// the larger displacement first.
+int side_of_edge(double area, const Point2& from, const Point2& to, bool b_moves_more)
+{
+  if (area != 0.0)
+    return sign(area);
+  const int by_b = sign(to[1] - from[1]);
+  const int by_c = sign(from[0] - to[0]);
+  if (b_moves_more)
+    return by_b != 0 ? by_b : by_c;
+  return by_c != 0 ? by_c : by_b;
+}
+
+/// Sign of component `axis` of the normal (x1 - x0) x (x2 - x0).
+int sign_of_normal(const Corners& x, int axis)
+{
+  const int b = (axis + 1) % 3;
+  const int c = (axis + 2) % 3;
+  return sign(area(projected(x[1], b, c), projected(x[2], b, c), projected(x[0], b, c)));
+}
+
+/// One triangle and the lines along one axis.
+class LineSearch {
+ public:
+  LineSearch(const grid::Grid& grid, int axis, const Corners& x, int triangle, const std::array<Range, 3>& around)
+      : grid_(grid), a_(axis), x_(x), triangle_(triangle), links_(around[axis])
+  {
+    for (int m = 0; m < 3; ++m)
+      shadow_[m] = projected(x[m], b_, c_);
+  }
+
+  /// Appends the hit of the line through the centres (cell[b], cell[c]), if there is one and this rank owns its face.
+  void hit(Index3 cell, std::vector<Crossing>& found)
+  {
+    line_ = {grid_.centre(b_, cell[b_]), grid_.centre(c_, cell[c_])};
+    if (!inside())
+      return;
+    const double total = areas_[0] + areas_[1] + areas_[2];
+    for (int m = 0; m < 3; ++m)
+      weights_[m] = areas_[m] / total;
+    append(cell, first_centre_above(), found);
+  }
+
+ private:
+  /// Whether the displaced line passes through the triangle; sets areas_ and side_.
+  bool inside()
+  {
+    side_ = 0;
+    for (int m = 0; m < 3; ++m) {
+      const Point2& from = shadow_[(m + 1) % 3];
+      const Point2& to = shadow_[(m + 2) % 3];
+      areas_[m] = area(from, to, line_);
+      const int side = side_of_edge(areas_[m], from, to, b_ < c_);
+      if (side == 0 || (m > 0 && side != side_))
+        return false;
+      side_ = side;
+    }
+    return true;
+  }
+
+  /// sum_m w_m (x_m - from) along the line, and the largest |x_m - from|.
+  std::array<double, 2> distance_to_hit(double from) const
+  {
+    double distance = 0.0;
+    double reach = 0.0;
+    for (int m = 0; m < 3; ++m) {
+      distance += weights_[m] * (x_[m][a_] - from);
+      reach = std::max(reach, std::abs(x_[m][a_] - from));
+    }
+    return {distance, reach};
+  }
+
+  /// Number of the first centre on the line, displaced, that lies above the hit; cells() when none does.
+  int first_centre_above() const
+  {
+    Range range = links_;
+    while (range.first < range.last) {
+      const int middle = (range.first + range.last) / 2;
+      if (hit_is_above(grid_.centre(a_, middle)))
+        range.first = middle + 1;
+      else
+        range.last = middle;
+    }
+    return range.first;
+  }
+
+  /// Whether the hit lies above the displaced centre at `centre`.
+  bool hit_is_above(double centre) const
+  {
+    // The weights are right to 2^-43 each, which bounds the error of the distance by 2^-41 reach.
+    constexpr double doubt = 0x1p-40;
+    const auto [distance, reach] = distance_to_hit(centre);
+    if (std::abs(distance) > doubt * reach)
+      return distance > 0.0;
+    const int exact = side_ * sign(exact_moment(centre));
+    return exact != 0 ? exact > 0 : hit_is_above_touched_centre();
+  }
+
+  /// sum_m A_m (x_m - centre), A_m the areas of the projected triangle's parts: the triangle's determinant with the
+  /// centre, exact in its sign.
+  double exact_moment(double centre) const
+  {
+    ExactSum<192> sum;
+    for (int m = 0; m < 3; ++m) {
+      const auto part = exact_area(shadow_[(m + 1) % 3], shadow_[(m + 2) % 3], line_);
+      const ExactDifference height(x_[m][a_], centre);
+      for (int t = 0; t < part.count(); ++t) {
+        sum.add_product(part.term(t), height.tail);
+        sum.add_product(part.term(t), height.head);
+      }
+    }
+    return sum.value();
+  }
+
+  /// The centre lies in the triangle's plane.  Displaced by -e it lies at -n.e along the normal n, and the hit above it
+  /// when n.e and n_a have the same sign; the first component of n that is not zero decides.
+  bool hit_is_above_touched_centre() const
+  {
+    for (int axis = 0; axis < a_; ++axis)
+      if (const int normal = sign_of_normal(x_, axis); normal != 0)
+        return normal == side_;
+    return true;
+  }
+
+  /// The hit lies between centres `above` - 1 and `above`.
+  void append(Index3 cell, int above, std::vector<Crossing>& found) const
+  {
+    const int last = grid_.cells()[a_];
+    const bool outermost = above == 0 || above == last;
+    if (outermost && !grid_.ranks().periodic(a_))
+      return;
+    constexpr double largest_below_one = 0x1.fffffffffffffp-1;
+    const double theta = distance_to_hit(grid_.centre(a_, above - 1))[0] / grid_.distance(a_, above);
+    Crossing crossing{a_, cell, std::clamp(theta, 0.0, largest_below_one), triangle_, weights_, side_};
+    const auto append_at = [&](int face) {
+      if (face < grid_.owned().lo[a_] || face > grid_.owned().hi[a_])
+        return;
+      crossing.cell[a_] = face;
+      found.push_back(crossing);
+    };
+    append_at(outermost ? 0 : above);
+    if (outermost)
+      append_at(last);
+  }
+
+  const grid::Grid& grid_;
+  int a_;
+  int b_ = (a_ + 1) % 3;
+  int c_ = (a_ + 2) % 3;
+  const Corners& x_;
+  int triangle_;
+  Range links_;
+  std::array<Point2, 3> shadow_{};
+  Point2 line_{};
+  std::array<double, 3> areas_{};
+  std::array<double, 3> weights_{};
+  int side_ = 0;
+};
+
+void cross_lines(const grid::Grid& grid, int axis, const Corners& x, int triangle, const std::array<Range, 3>& around,
+                 std::vector<Crossing>& found)
+{
+  const IndexBox& owned = grid.owned();
+  const int b = (axis + 1) % 3;
+  const int c = (axis + 2) % 3;
+  const Range lines_b = clipped(around[b], owned.lo[b], owned.hi[b]);
+  const Range lines_c = clipped(around[c], owned.lo[c], owned.hi[c]);
+  if (lines_b.first >= lines_b.last || lines_c.first >= lines_c.last)
+    return;
+  LineSearch search(grid, axis, x, triangle, around);
+  Index3 cell{};
+  for (cell[c] = lines_c.first; cell[c] < lines_c.last; ++cell[c])
+    for (cell[b] = lines_b.first; cell[b] < lines_b.last; ++cell[b])
+      search.hit(cell, found);
+}
+
+auto order(const Crossing& x)
+{
+  return std::tuple(x.axis, x.cell[2], x.cell[1], x.cell[0], x.theta, x.triangle);
+}
+
+}  // namespace
+
+std::vector<Crossing> find_crossings(const grid::Grid& grid, std::span<const Vec3> positions,
+                                     std::span<const std::array<int, 3>> triangles)
+{
+  std::vector<Crossing> found;
+  for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
+    const auto& corner = triangles[t];
+    const Corners x{positions[corner[0]], positions[corner[1]], positions[corner[2]]};
+    std::array<Range, 3> around;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [low, high] = std::minmax({x[0][axis], x[1][axis], x[2][axis]});
+      around[axis] = displaced_centres_within(grid, axis, low, high);
+    }
+    for (int axis = 0; axis < 3; ++axis)
+      cross_lines(grid, axis, x, t, around, found);
+  }
+  std::sort(found.begin(), found.end(), [](const Crossing& p, const Crossing& q) { return order(p) < order(q); });
+  return found;
+}
+
+}  // namespace luff::immersed
