@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "core/vec3.hpp"
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Curvature of a triangle from the vertices around it: the constant operator of the rotation-free element.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "shell/support.hpp"
+#include "surface/mesh.hpp"
+#include "surface/topology.hpp"
+
+namespace luff::shell {
+
+/// Affine image y = T x + t of a vertex, made by mirrors at supported edges.
+struct Image {
+  Mat3 T;
+  Vec3 t;
+};
+
+/// One vertex (or image of one) in the curvature of a triangle.
+struct StencilEntry {
+  int vertex;
+  int image;  ///< index into BendingOperator::images, or -1 for the vertex itself
+  Vec3 H;     ///< weights in (x_,11, x_,22, 2 x_,12) [1/L^2]
+};
+
+/// kappa_V = n . sum_i H_V^i y_i for every triangle; the first three entries are its corners.
+struct BendingOperator {
+  std::vector<Image> images;
+  std::vector<std::vector<StencilEntry>> stencils;
+  /// Largest q = 1/sigma_min of a patch's quadratic fit: 1 for equilateral patches, infinite for six vertices on a
+  /// conic.
+  double worst_conic = 0;
+  int worst_triangle = -1;
+  /// Triangles whose fit was replaced by hinge angles because q > 50.
+  int n_replaced = 0;
+};
+
+/// QAVG: slopes at the mid-edges averaged between the quadratic fits of the two patches, then Gauss's theorem over the
+/// triangle (ours; docs/numerics/shell.md). Exact on quadratics and in equilibrium under constant moments.
+/// The bending `moduli` (shape only) weight the natural condition at free edges.
+/// \throws InputError naming `shell` and the triangle where the mesh folds back on itself or the fit is singular.
+BendingOperator averaged_quadratics(const surface::TriangleMesh& mesh, const surface::Topology& topology,
+                                    const std::vector<MirrorEdge>& mirrors, const Mat3& moduli, std::string_view shell);
+
+}  // namespace luff::shell

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sparse matrix of 3 x 3 blocks.
+#include "shell/block_matrix.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace luff::shell {
+
+int BlockPattern::slot(int row, int col) const
+{
+  const auto first = column.begin() + row_start[row], last = column.begin() + row_start[row + 1];
+  const auto found = std::lower_bound(first, last, col);
+  ensure(found != last && *found == col, "a block outside the pattern");
+  return static_cast<int>(found - column.begin());
+}
+
+BlockPattern couple(int n_vertices, std::span<const std::vector<int>> groups)
+{
+  std::vector<std::vector<int>> rows(n_vertices);
+  for (int v = 0; v < n_vertices; ++v)
+    rows[v].push_back(v);
+  for (const auto& group : groups)
+    for (const int v : group)
+      rows[v].insert(rows[v].end(), group.begin(), group.end());
+  BlockPattern pattern;
+  pattern.row_start.push_back(0);
+  for (auto& row : rows) {
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    pattern.column.insert(pattern.column.end(), row.begin(), row.end());
+    pattern.row_start.push_back(static_cast<int>(pattern.column.size()));
+  }
+  return pattern;
+}
+
+void BlockMatrix::add(double factor, const BlockMatrix& other)
+{
+  ensure(pattern_ == other.pattern_, "two matrices on different patterns");
+  for (std::size_t i = 0; i < values_.size(); ++i)
+    values_[i] += factor * other.values_[i];
+}
+
+Eigen::VectorXd BlockMatrix::operator*(const Eigen::VectorXd& x) const
+{
+  Eigen::VectorXd y(x.size());
+  for (int row = 0; row < pattern_->n_rows(); ++row) {
+    Vec3 sum = Vec3::Zero();
+    for (int s = pattern_->row_start[row]; s < pattern_->row_start[row + 1]; ++s)
+      sum.noalias() += block(s) * x.segment<3>(3 * pattern_->column[s]);
+    y.segment<3>(3 * row) = sum;
+  }
+  return y;
+}
+
+Eigen::MatrixXd BlockMatrix::dense() const
+{
+  const int n = pattern_->n_rows();
+  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+  for (int row = 0; row < n; ++row)
+    for (int s = pattern_->row_start[row]; s < pattern_->row_start[row + 1]; ++s)
+      full.block<3, 3>(3 * row, 3 * pattern_->column[s]) = block(s);
+  return full;
+}
+
+}  // namespace luff::shell

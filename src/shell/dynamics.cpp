@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Motion of a shell in time.
+#include "shell/dynamics.hpp"
+
+#include "core/error.hpp"
+
+namespace luff::shell {
+
+Dynamics::Dynamics(const Shell& shell, const std::vector<Load>& loads, DynamicsOptions options, double t0,
+                   const Eigen::VectorXd& v0)
+    : shell_(shell),
+      loads_(shell, loads),
+      options_(options),
+      material_stiffness_(shell.pattern()),
+      tangent_(shell, options.linear_solver)
+{
+  if (!(shell_.properties().density > 0))
+    fail_input("shell \"{}\": density = {} must be greater than 0 to move in time", shell_.name(),
+               shell_.properties().density);
+  state_.x = shell_.reference_positions();
+  state_.v = v0.size() > 0 ? v0 : Eigen::VectorXd::Zero(state_.x.size());
+  ensure(state_.v.size() == state_.x.size(), "an initial velocity has three numbers per vertex");
+  shell_.clear_held(state_.v);
+  state_.t = t0;
+  freeze_damping();
+  external_ = loads_.force(state_.x, t0);
+  state_.a = consistent_acceleration();
+  ledger_.kinetic = 0.5 * state_.v.dot(shell_.mass_times(state_.v));
+  ledger_.elastic = shell_.elastic_energy(state_.x);
+}
+
+void Dynamics::restore(const State& state, const Eigen::VectorXd& fluid_forces, const EnergyLedger& ledger, int step)
+{
+  state_ = state;
+  ledger_ = ledger;
+  step_ = step;
+  external_ = loads_.force(state_.x, state_.t) + fluid_forces;
+  freeze_damping();
+  tangent_.valid = false;
+}
+
+/// M a = f_ext - f_int - D v on the free displacements.
+Eigen::VectorXd Dynamics::consistent_acceleration() const
+{
+  BlockMatrix mass(shell_.pattern());
+  shell_.add_mass(1, mass);
+  const auto solver = make_linear_solver(LinearSolverKind::Direct, *shell_.pattern(), shell_.held());
+  solver->factorise(mass);
+  return solver->solve(external_ - shell_.internal_force(state_.x) - damping_force(state_.v));
+}
+
+void Dynamics::freeze_damping()
+{
+  if (shell_.properties().damping_stiffness == 0)
+    return;
+  material_stiffness_.set_zero();
+  shell_.add_material_stiffness(state_.x, material_stiffness_);
+}
+
+/// D v with D = f_m M + f_k K_mat(x_n).
+Eigen::VectorXd Dynamics::damping_force(const Eigen::VectorXd& v) const
+{
+  const Properties& p = shell_.properties();
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(v.size());
+  if (p.damping_mass > 0)
+    f += p.damping_mass * shell_.mass_times(v);
+  if (p.damping_stiffness > 0)
+    f += p.damping_stiffness * (material_stiffness_ * v);
+  return f;
+}
+
+Eigen::VectorXd Dynamics::predicted_positions(double dt) const
+{
+  Eigen::VectorXd step = dt * state_.v + 0.5 * dt * dt * state_.a;
+  shell_.clear_held(step);
+  return state_.x + step;
+}
+
+Kinematics Dynamics::kinematics(const Eigen::VectorXd& positions, double dt) const
+{
+  Kinematics k;
+  k.a = 4 / (dt * dt) * (positions - state_.x - dt * state_.v) - state_.a;
+  k.v = state_.v + 0.5 * dt * (state_.a + k.a);
+  shell_.clear_held(k.a);
+  shell_.clear_held(k.v);
+  return k;
+}
+
+Dynamics::Trial Dynamics::solve(double t_new, double dt, const Eigen::VectorXd& fluid_forces,
+                                const Eigen::VectorXd& guess)
+{
+  ensure(dt > 0 && fluid_forces.size() == state_.x.size() && guess.size() == state_.x.size(),
+         "a step needs dt > 0 and three numbers per vertex");
+  if (dt != tangent_dt_)
+    tangent_.valid = false;
+  tangent_dt_ = dt;
+  const Properties& p = shell_.properties();
+  const Equilibrium equilibrium{
+      .residual = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+        const Kinematics k = kinematics(x, dt);
+        return loads_.force(x, t_new) + fluid_forces - shell_.internal_force(x) - shell_.mass_times(k.a) -
+               damping_force(k.v);
+      },
+      .tangent =
+          [&](const Eigen::VectorXd& x, BlockMatrix& K) {
+            shell_.add_tangent(x, K);
+            shell_.add_mass(4 / (dt * dt) + 2 / dt * p.damping_mass, K);
+            if (p.damping_stiffness > 0)
+              K.add(2 / dt * p.damping_stiffness, material_stiffness_);
+            loads_.subtract_stiffness(x, t_new, 1, K);
+          },
+  };
+  Eigen::VectorXd offset = guess - state_.x;
+  shell_.clear_held(offset);
+  Trial trial{state_.x + offset, {}};
+  trial.report = newton(shell_, equilibrium, options_.newton, tangent_, trial.positions, when(t_new));
+  return trial;
+}
+
+Folds Dynamics::accept(const Eigen::VectorXd& positions, double t_new, double dt, const Eigen::VectorXd& fluid_forces)
+{
+  const Folds report = check_folds(shell_, positions, when(t_new));
+  const Kinematics k = kinematics(positions, dt);
+  const Eigen::VectorXd external = loads_.force(positions, t_new) + fluid_forces;
+  const Eigen::VectorXd moved = positions - state_.x;
+  ledger_.external_work += 0.5 * moved.dot(external_ + external);
+  ledger_.damping_work += 0.5 * moved.dot(damping_force(state_.v + k.v));
+  ledger_.kinetic = 0.5 * k.v.dot(shell_.mass_times(k.v));
+  ledger_.elastic = shell_.elastic_energy(positions);
+  state_ = {positions, k.v, k.a, t_new};
+  external_ = external;
+  ++step_;
+  freeze_damping();
+  tangent_.valid = false;
+  return report;
+}
+
+std::string Dynamics::when(double t_new) const
+{
+  return fmt::format("step {}, t = {:.6g}", step_ + 1, t_new);
+}
+
+}  // namespace luff::shell

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Motion of a shell in time: Newmark's average acceleration (beta = 1/4, gamma = 1/2).
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "shell/folds.hpp"
+#include "shell/loads.hpp"
+#include "shell/newton.hpp"
+#include "shell/shell.hpp"
+
+namespace luff::shell {
+
+/// Positions, velocities, accelerations of all vertices (3n each) at time t.
+struct State {
+  Eigen::VectorXd x;  ///< [L]
+  Eigen::VectorXd v;  ///< [L/T]
+  Eigen::VectorXd a;  ///< [L/T^2]
+  double t = 0;
+};
+
+/// Velocity and acceleration that Newmark's rule gives to new positions.
+struct Kinematics {
+  Eigen::VectorXd v;
+  Eigen::VectorXd a;
+};
+
+/// Where the energy is and what went in and out since the start [M L^2/T^2];
+/// kinetic + elastic + damping_work - external_work stays constant but for the time integration's error.
+struct EnergyLedger {
+  double kinetic = 0;
+  double elastic = 0;
+  double damping_work = 0;
+  double external_work = 0;
+};
+
+struct DynamicsOptions {
+  NewtonPolicy newton;
+  LinearSolverKind linear_solver = LinearSolverKind::Direct;
+};
+
+/// Solves M a + D v + f_int(x) = f_ext(x, t) + f_fluid step by step, with Rayleigh damping D = f_m M + f_k K_mat(x_n)
+/// frozen in the step. Newmark (newmark_1959_method):
+///
+///   a = 4/dt^2 (x - x_n - dt v_n) - a_n,   v = v_n + dt/2 (a_n + a).
+///
+/// solve() only computes; the accepted state changes in accept() alone, so a step can be repeated with other fluid
+/// forces. The tangent is factorised in the first solve() of a step, which therefore doesn't depend on what was
+/// computed before the accepted state; later ones reuse it.
+class Dynamics {
+ public:
+  struct Trial {
+    Eigen::VectorXd positions;
+    NewtonReport report;
+  };
+
+  /// Start at rest in the reference configuration, or with velocity v0; the acceleration follows from equilibrium.
+  /// Keeps a reference to the shell. \throws InputError when the density is zero.
+  Dynamics(const Shell& shell, const std::vector<Load>& loads, DynamicsOptions options = {}, double t0 = 0,
+           const Eigen::VectorXd& v0 = {});
+
+  const Shell& shell() const { return shell_; }
+  const State& accepted() const { return state_; }
+  const EnergyLedger& ledger() const { return ledger_; }
+  int step() const { return step_; }
+
+  /// Continue from a stored state, its fluid forces and ledger (restart).
+  void restore(const State& state, const Eigen::VectorXd& fluid_forces, const EnergyLedger& ledger, int step);
+
+  /// Second-order extrapolation x + dt v + dt^2/2 a, held displacements kept.
+  Eigen::VectorXd predicted_positions(double dt) const;
+  Kinematics kinematics(const Eigen::VectorXd& positions, double dt) const;
+
+  /// Positions at t_new = t + dt in equilibrium with the fluid's nodal forces (3n), starting Newton from `guess`.
+  /// \throws RunError naming the step, time and place when there is no equilibrium.
+  Trial solve(double t_new, double dt, const Eigen::VectorXd& fluid_forces, const Eigen::VectorXd& guess);
+
+  /// Make positions, with Newmark's velocity and acceleration, the accepted state.
+  /// \throws RunError naming the place when the shell folds by more than 75 degrees over an edge; the state is
+  /// unchanged.
+  Folds accept(const Eigen::VectorXd& positions, double t_new, double dt, const Eigen::VectorXd& fluid_forces);
+
+ private:
+  Eigen::VectorXd consistent_acceleration() const;
+  Eigen::VectorXd damping_force(const Eigen::VectorXd& v) const;
+  void freeze_damping();
+  std::string when(double t_new) const;
+
+  const Shell& shell_;
+  Loads loads_;
+  DynamicsOptions options_;
+  State state_;
+  EnergyLedger ledger_;
+  Eigen::VectorXd external_;  ///< prescribed and fluid forces of the accepted state
+  BlockMatrix material_stiffness_;
+  KeptTangent tangent_;
+  double tangent_dt_ = 0;
+  int step_ = 0;
+};
+
+}  // namespace luff::shell

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How sharply a deformed shell folds over the edges of its mesh.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "shell/shell.hpp"
+
+namespace luff::shell {
+
+/// Folds of a deformed shell: change of the angle between neighbouring triangles since the reference [degrees].
+struct Folds {
+  double largest = 0;
+  surface::TriangleEdge at{-1, -1};
+  int n_sharp = 0;  ///< edges folded by more than 45 degrees: the element loses accuracy there
+};
+
+Folds folds(const Shell& shell, const Eigen::VectorXd& x);
+
+/// Folds, none above 75 degrees: the element's resistance has a maximum at 90 and falls beyond.
+/// \throws RunError that starts with `when` and names the place.
+Folds check_folds(const Shell& shell, const Eigen::VectorXd& x, const std::string& when);
+
+}  // namespace luff::shell

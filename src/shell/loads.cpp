@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Prescribed loads on a shell.
+#include "shell/loads.hpp"
+
+#include <numeric>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "core/error.hpp"
+
+namespace luff::shell {
+
+namespace {
+
+Mat3 cross_matrix(const Vec3& d)
+{
+  Mat3 W;
+  W << 0, -d.z(), d.y(), d.z(), 0, -d.x(), -d.y(), d.x(), 0;
+  return W;
+}
+
+/// Part of a force that each vertex takes: half of every boundary edge between two of them, or equal parts.
+std::vector<double> shares(const Shell& shell, const std::vector<int>& vertices)
+{
+  const auto& mesh = shell.reference();
+  std::vector<double> length(mesh.vertices.size(), 0);
+  std::vector<char> selected(mesh.vertices.size(), 0);
+  for (const int v : vertices)
+    selected[v] = 1;
+  double total = 0;
+  for (const auto side : shell.topology().boundary) {
+    const auto [a, b] = surface::edge_vertices(mesh.triangles[side.triangle], side.edge);
+    if (!selected[a] || !selected[b])
+      continue;
+    const double l = (mesh.vertices[b] - mesh.vertices[a]).norm();
+    length[a] += l / 2;
+    length[b] += l / 2;
+    total += l;
+  }
+  std::vector<double> result;
+  for (const int v : vertices)
+    result.push_back(total > 0 ? length[v] / total : 1.0 / static_cast<double>(vertices.size()));
+  return result;
+}
+
+}  // namespace
+
+std::vector<int> triangles_of(const surface::TriangleMesh& mesh, std::span<const int> vertices)
+{
+  std::vector<char> selected(mesh.vertices.size(), 0);
+  for (const int v : vertices)
+    selected[v] = 1;
+  std::vector<int> result;
+  for (int t = 0; t < mesh.n_triangles(); ++t) {
+    const auto& corner = mesh.triangles[t];
+    if (selected[corner[0]] && selected[corner[1]] && selected[corner[2]])
+      result.push_back(t);
+  }
+  return result;
+}
+
+Loads::Loads(const Shell& shell, std::vector<Load> loads) : shell_(shell), loads_(std::move(loads))
+{
+  for (Load& load : loads_) {
+    shares_.emplace_back();
+    if (auto* force = std::get_if<PointForce>(&load)) {
+      check(*force);
+      shares_.back() = shares(shell_, force->vertices);
+    } else if (auto* traction = std::get_if<Traction>(&load)) {
+      check_triangles(traction->triangles);
+    } else {
+      check_triangles(std::get<Pressure>(load).triangles);
+    }
+  }
+  const Vec3 gravity = shell_.properties().gravity;
+  weight_ = shell_.mass_times(gravity.replicate(shell_.n_vertices(), 1));
+}
+
+void Loads::check(const PointForce& load) const
+{
+  if (load.vertices.empty())
+    fail_input("shell \"{}\": a force selects no vertex; widen its \"where\"", shell_.name());
+  for (const int v : load.vertices)
+    if (v < 0 || v >= shell_.n_vertices())
+      fail_input("shell \"{}\": a force acts on vertex {}, not in 0..{}", shell_.name(), v, shell_.n_vertices() - 1);
+}
+
+void Loads::check_triangles(std::vector<int>& triangles) const
+{
+  const int n = shell_.reference().n_triangles();
+  if (triangles.empty()) {
+    triangles.resize(n);
+    std::iota(triangles.begin(), triangles.end(), 0);
+  }
+  for (const int t : triangles)
+    if (t < 0 || t >= n)
+      fail_input("shell \"{}\": a load acts on triangle {}, not in 0..{}", shell_.name(), t, n - 1);
+}
+
+Eigen::VectorXd Loads::force(const Eigen::VectorXd& x, double t) const
+{
+  Eigen::VectorXd f = weight_;
+  for (std::size_t l = 0; l < loads_.size(); ++l) {
+    if (const auto* point = std::get_if<PointForce>(&loads_[l]))
+      for (std::size_t i = 0; i < point->vertices.size(); ++i) {
+        const int v = point->vertices[i];
+        f.segment<3>(3 * v) += shares_[l][i] * point->force(shell_.reference().vertices[v], t);
+      }
+    else if (const auto* traction = std::get_if<Traction>(&loads_[l]))
+      add(*traction, t, f);
+    else
+      add(std::get<Pressure>(loads_[l]), x, t, f);
+  }
+  return f;
+}
+
+void Loads::add(const Traction& load, double t, Eigen::VectorXd& f) const
+{
+  const auto& mesh = shell_.reference();
+  for (const int e : load.triangles) {
+    const Vec3 third = shell_.elements()[e].area / 3 * load.traction(surface::centroid(mesh, e), t);
+    for (const int v : mesh.triangles[e])
+      f.segment<3>(3 * v) += third;
+  }
+}
+
+void Loads::add(const Pressure& load, const Eigen::VectorXd& x, double t, Eigen::VectorXd& f) const
+{
+  const auto& mesh = shell_.reference();
+  for (const int e : load.triangles) {
+    const auto [a, b, c] = mesh.triangles[e];
+    const Vec3 twice_area =
+        (x.segment<3>(3 * b) - x.segment<3>(3 * a)).cross(x.segment<3>(3 * c) - x.segment<3>(3 * a));
+    const Vec3 sixth = load.pressure(surface::centroid(mesh, e), t) / 6 * twice_area;
+    for (const int v : mesh.triangles[e])
+      f.segment<3>(3 * v) += sixth;
+  }
+}
+
+/// d f_i / d x_j = p/6 [d_j]x for every corner i, d_j the edge opposite corner j; half of it and of its transpose.
+void Loads::subtract_stiffness(const Eigen::VectorXd& x, double t, double factor, BlockMatrix& K) const
+{
+  const auto& mesh = shell_.reference();
+  for (const Load& load : loads_) {
+    const auto* pressure = std::get_if<Pressure>(&load);
+    if (!pressure)
+      continue;
+    for (const int e : pressure->triangles) {
+      const auto& corner = mesh.triangles[e];
+      const double p = factor * pressure->pressure(surface::centroid(mesh, e), t);
+      std::array<Mat3, 3> derivative;
+      for (int j = 0; j < 3; ++j)
+        derivative[j] =
+            p / 6 * cross_matrix(x.segment<3>(3 * corner[(j + 2) % 3]) - x.segment<3>(3 * corner[(j + 1) % 3]));
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          K.block(K.pattern().slot(corner[i], corner[j])) -= 0.5 * (derivative[j] + derivative[i].transpose());
+    }
+  }
+}
+
+}  // namespace luff::shell

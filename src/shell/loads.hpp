@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Prescribed loads on a shell.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/vec3.hpp"
+#include "shell/shell.hpp"
+
+namespace luff::shell {
+
+/// Functions of a point of the reference configuration and of time.
+using VectorFunction = std::function<Vec3(const Vec3&, double)>;
+using ScalarFunction = std::function<double(const Vec3&, double)>;
+
+/// A dead force [M L/T^2] shared among vertices: by the length of the boundary edges between them that each one owns,
+/// or equally when there is no such edge. The function is evaluated at each vertex.
+struct PointForce {
+  std::vector<int> vertices;
+  VectorFunction force;
+};
+
+/// A dead traction per area of the reference [M/(L T^2)], a third of each triangle's force to each corner.
+/// No triangles listed: all of them.
+struct Traction {
+  std::vector<int> triangles;
+  VectorFunction traction;
+};
+
+/// A pressure along the current normal [M/(L T^2)], f_i = p/6 (x2 - x1) x (x3 - x1); it follows the shell.
+/// No triangles listed: all of them.
+struct Pressure {
+  std::vector<int> triangles;
+  ScalarFunction pressure;
+};
+
+using Load = std::variant<PointForce, Traction, Pressure>;
+
+/// Triangles with all corners among the vertices.
+std::vector<int> triangles_of(const surface::TriangleMesh& mesh, std::span<const int> vertices);
+
+/// Loads and gravity of a shell.
+class Loads {
+ public:
+  /// Keeps a reference to the shell. \throws InputError for numbers out of range or an empty PointForce.
+  Loads(const Shell& shell, std::vector<Load> loads);
+
+  /// Nodal forces (3n) in configuration x at time t.
+  Eigen::VectorXd force(const Eigen::VectorXd& x, double t) const;
+  /// K -= factor * the symmetric part of d force / d x. What it leaves out vanishes for a uniform pressure on a shell
+  /// without free edges.
+  void subtract_stiffness(const Eigen::VectorXd& x, double t, double factor, BlockMatrix& K) const;
+
+ private:
+  void add(const Traction& load, double t, Eigen::VectorXd& f) const;
+  void add(const Pressure& load, const Eigen::VectorXd& x, double t, Eigen::VectorXd& f) const;
+  void check(const PointForce& load) const;
+  void check_triangles(std::vector<int>& triangles) const;
+
+  const Shell& shell_;
+  std::vector<Load> loads_;
+  std::vector<std::vector<double>> shares_;  ///< of each point force, per vertex
+  Eigen::VectorXd weight_;                   ///< gravity, constant
+};
+
+}  // namespace luff::shell

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Newton's method for the equilibrium of a shell.
+#include "shell/newton.hpp"
+
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace luff::shell {
+
+namespace {
+
+[[noreturn]] void fail(const Shell& shell, const NewtonReport& report, const Eigen::VectorXd& x,
+                       const Eigen::VectorXd& dx, const std::string& when)
+{
+  Eigen::Index worst = 0;
+  if (dx.allFinite())
+    dx.cwiseAbs().maxCoeff(&worst);
+  else
+    while (std::isfinite(dx[worst]))
+      ++worst;
+  const int v = static_cast<int>(worst / 3);
+  const Vec3 X = shell.reference().vertices[v], now = x.segment<3>(3 * v);
+  fail_run(
+      "{}: shell \"{}\" found no equilibrium in {} iterations: last increment {:.2e} of its size, at vertex {} "
+      "(reference ({:.6g}, {:.6g}, {:.6g}), now ({:.6g}, {:.6g}, {:.6g})); take smaller steps, add damping or "
+      "refine the mesh there",
+      when, shell.name(), report.iterations, report.increment, v, X.x(), X.y(), X.z(), now.x(), now.y(), now.z());
+}
+
+void renew(const Equilibrium& equilibrium, const Eigen::VectorXd& x, KeptTangent& tangent, NewtonReport& report)
+{
+  tangent.K.set_zero();
+  equilibrium.tangent(x, tangent.K);
+  tangent.solver->factorise(tangent.K);
+  tangent.valid = true;
+  ++report.factorisations;
+}
+
+}  // namespace
+
+NewtonReport newton(const Shell& shell, const Equilibrium& equilibrium, const NewtonPolicy& policy,
+                    KeptTangent& tangent, Eigen::VectorXd& x, const std::string& when)
+{
+  NewtonReport report;
+  double last = 0;
+  while (true) {
+    Eigen::VectorXd r = equilibrium.residual(x);
+    shell.clear_held(r);
+    report.residual = r.norm();
+    report.residuals.push_back(report.residual);
+    const bool renewed = !tangent.valid;
+    if (renewed)
+      renew(equilibrium, x, tangent, report);
+    Eigen::VectorXd dx = tangent.solver->solve(r);
+    report.increment = dx.lpNorm<Eigen::Infinity>() / shell.size();
+    report.increments.push_back(report.increment);
+    ++report.iterations;
+    if (!dx.allFinite())
+      fail(shell, report, x, dx, when);
+    x += report.increment > policy.max_increment ? policy.max_increment / report.increment * dx : dx;
+    if (report.increment <= policy.tolerance)
+      return report;
+    const bool shrinking = report.iterations == 1 || report.increment < 0.5 * last;
+    if (renewed && !shrinking && report.increment < policy.round_off) {
+      report.stopped_at_round_off = true;
+      return report;
+    }
+    if (report.iterations == policy.max_iterations)
+      fail(shell, report, x, dx, when);
+    const bool slow = report.iterations > 1 && report.increment > policy.slow * last;
+    tangent.valid = policy.slow > 0 && !slow;
+    last = report.increment;
+  }
+}
+
+}  // namespace luff::shell

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A shell: reference configuration, properties and supports; assembles energy, force, tangent and mass.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "shell/bending_operator.hpp"
+#include "shell/block_matrix.hpp"
+#include "shell/element.hpp"
+#include "shell/properties.hpp"
+#include "shell/support.hpp"
+#include "surface/mesh.hpp"
+#include "surface/topology.hpp"
+
+namespace luff::shell {
+
+/// Vectors hold x0 y0 z0 x1 ... of all vertices, the held ones included (3n numbers).
+/// Results don't depend on the number of threads, to the last bit. The object is immutable.
+class Shell {
+ public:
+  /// \throws InputError for a bad mesh, property or support, naming `name`.
+  Shell(surface::TriangleMesh reference, const Properties& properties, std::vector<Support> supports,
+        std::string name = "shell");
+
+  const std::string& name() const { return name_; }
+  const surface::TriangleMesh& reference() const { return reference_; }
+  const surface::Topology& topology() const { return topology_; }
+  const Properties& properties() const { return properties_; }
+  int n_vertices() const { return reference_.n_vertices(); }
+  /// Diagonal of the reference's bounding box [L].
+  double size() const { return size_; }
+  const Eigen::VectorXd& reference_positions() const { return X_; }
+  /// 3n flags: 1 where the displacement is held at zero.
+  const std::vector<char>& held() const { return held_; }
+  const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
+  const std::vector<Element>& elements() const { return elements_; }
+
+  double elastic_energy(const Eigen::VectorXd& x) const;
+  /// Gradient of elastic_energy.
+  Eigen::VectorXd internal_force(const Eigen::VectorXd& x) const;
+  /// K += Hessian of elastic_energy.
+  void add_tangent(const Eigen::VectorXd& x, BlockMatrix& K) const;
+  /// K += its part A B'DB: positive semi-definite, without force on rigid motions.
+  void add_material_stiffness(const Eigen::VectorXd& x, BlockMatrix& K) const;
+  /// Consistent mass times a vector, M_ij = rho h A (1 + delta_ij)/12.
+  Eigen::VectorXd mass_times(const Eigen::VectorXd& v) const;
+  /// K += factor * mass.
+  void add_mass(double factor, BlockMatrix& K) const;
+
+  /// Put zeros where the displacement is held.
+  void clear_held(Eigen::VectorXd& v) const;
+
+  /// Largest conic degeneracy q of a bending patch, its triangle, and how many patches use hinge angles instead.
+  double worst_conic() const { return worst_conic_; }
+  int worst_conic_triangle() const { return worst_conic_triangle_; }
+  int n_hinge_patches() const { return n_hinge_patches_; }
+
+ private:
+  NodePositions gather(const Element& element, const Eigen::VectorXd& x) const;
+  template <class Body>
+  void for_each_element(Body body) const;
+  void scatter(int element, const ElementTangent& tangent, BlockMatrix& K) const;
+  void make_elements(const BendingOperator& bending);
+  void make_pattern();
+  void colour_elements();
+  void make_mass();
+
+  std::string name_;
+  surface::TriangleMesh reference_;
+  Properties properties_;
+  surface::Topology topology_;
+  double size_ = 0;
+  Eigen::VectorXd X_;
+  std::vector<char> held_;
+  Rigidity rigidity_;
+  std::vector<Image> images_;
+  std::vector<Element> elements_;
+  std::shared_ptr<const BlockPattern> pattern_;
+  std::vector<std::array<int, max_nodes * max_nodes>> slots_;  ///< of each element's blocks in the pattern
+  std::vector<std::vector<int>> colours_;                      ///< elements of one colour share no vertex
+  Eigen::SparseMatrix<double, Eigen::RowMajor> mass_;          ///< n x n, the same for x, y and z
+  std::vector<int> mass_slot_;                                 ///< of each entry of mass_ in the pattern
+  double worst_conic_ = 0;
+  int worst_conic_triangle_ = -1;
+  int n_hinge_patches_ = 0;
+};
+
+}  // namespace luff::shell

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Equilibrium of a shell under slowly growing loads.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "shell/folds.hpp"
+#include "shell/loads.hpp"
+#include "shell/newton.hpp"
+
+namespace luff::shell {
+
+struct StaticOptions {
+  int steps = 20;   ///< equal load steps, at least 1
+  double time = 0;  ///< at which loads that depend on time are evaluated
+  NewtonPolicy newton{.tolerance = 1e-11, .slow = 0};
+  LinearSolverKind linear_solver = LinearSolverKind::Direct;
+};
+
+/// Equilibrium at one load factor.
+struct StaticStep {
+  int step = 0;
+  double load_factor = 0;  ///< step/steps, multiplies every load and gravity
+  Eigen::VectorXd positions;
+  NewtonReport report;
+  Folds folds;
+};
+
+/// Load stepping with full Newton steps; returns the last equilibrium, reports each.
+/// \throws RunError naming the step, load factor and place when there is no equilibrium or the shell folds.
+StaticStep solve_static(const Shell& shell, const std::vector<Load>& loads, const StaticOptions& options = {},
+                        const std::function<void(const StaticStep&)>& on_step = {});
+
+}  // namespace luff::shell
