@@ -33,7 +33,7 @@ void state_names_rule(Schema& s, const Case& options)
   for (std::size_t i = 0; i < names.size(); ++i) {
     const bool is_shell = i < options.shells.size();
     const auto key = fmt::format("{}.{}.name", is_shell ? "shell" : "body", is_shell ? i : i - options.shells.size());
-    s.rule(!contains(names, names[i], i), key, "must be unique: another shell or body has it");
+    s.rule(!contains(names, names[i], i), key, "must be unique", ": another shell or body has it");
   }
 }
 
@@ -44,8 +44,8 @@ void state_periodic_rule(Schema& s, const Case& options)
   for (std::size_t low = 0; low < sides.size(); low += 2) {
     const std::size_t high = low + 1;
     const std::size_t alone = is_periodic(low) ? low : high;
-    s.rule(is_periodic(low) == is_periodic(high), fmt::format("boundary.{}.type", side_names[alone]),
-           fmt::format("must be paired: {} is not periodic", side_names[alone == low ? high : low]));
+    s.rule(is_periodic(low) == is_periodic(high), fmt::format("boundary.{}.type", side_names[alone]), "must be paired",
+           fmt::format(": {} is not periodic", side_names[alone == low ? high : low]));
   }
 }
 
@@ -63,11 +63,11 @@ void state_probe_rules(Schema& s, const Case& options)
   std::vector<std::string> names;
   for (const auto& probe : options.output.probes) {
     const auto key = fmt::format("output.probe.{}", names.size());
-    s.rule(!contains(names, probe.name, names.size()), key + ".name", "must be unique: another probe has it");
+    s.rule(!contains(names, probe.name, names.size()), key + ".name", "must be unique", ": another probe has it");
     names.push_back(probe.name);
     if (probe.shell) {
-      s.rule(contains(surfaces, *probe.shell, surfaces.size()), key + ".shell",
-             "must name a shell or a body" + suggestion(*probe.shell, surfaces));
+      s.rule(contains(surfaces, *probe.shell, surfaces.size()), key + ".shell", "must name a shell or a body",
+             suggestion(*probe.shell, surfaces));
     } else {
       s.rule(options.fluid.has_value(), key, "must name a `shell`: without [fluid] there is no flow to stand in");
       s.rule(!options.fluid || is_inside(probe.point, options.grid), key + ".point", "must lie in the grid");

@@ -9,6 +9,9 @@ namespace luff::config {
 
 void describe(Schema& s, Case& options);
 
+/// The key `name` of what has files named after it.
+void describe_name(Schema& s, std::string& name, std::string_view doc);
+
 // Flow (describe_flow.cpp).
 void describe(Schema& s, TimeOptions& time);
 void describe(Schema& s, FluidOptions& fluid);

@@ -67,8 +67,8 @@ void describe(Schema& s, AxisOptions& axis)
   const double cells = std::ceil((refine.to - refine.from) / refine.spacing * (1.0 - 1e-12));
   const double cells_outside = (refine.from > axis.from ? 1 : 0) + (refine.to < axis.to ? 1 : 0);
   s.rule(refine.from >= axis.from && refine.to <= axis.to, "refine", "must lie between `from` and `to`");
-  s.rule(cells + cells_outside <= axis.cells, "refine",
-         fmt::format("must leave a cell for each end: it takes {} of the {} `cells`", cells, axis.cells));
+  s.rule(cells + cells_outside <= axis.cells, "refine", "must leave a cell for each end",
+         fmt::format(": it takes {} of the {} cells", cells, axis.cells));
 }
 
 void describe(Schema& s, RefineOptions& refine)

@@ -2,8 +2,6 @@
 // Keys of the case as a whole, of how it is solved, and of what is written.
 #include "config/describe.hpp"
 
-#include "config/case_rules.hpp"
-
 namespace luff::config {
 
 void describe(Schema& s, Case& options)
@@ -24,7 +22,6 @@ void describe(Schema& s, Case& options)
   s.table("coupling", options.coupling, {.doc = "How flow and shells find each other in a time step."});
   s.table("output", options.output,
           {.doc = "What is written, besides `log.txt`, `steps.csv`, forces and `summary.json`."});
-  state_case_rules(s, options);
 }
 
 void describe(Schema& s, StructureOptions& structure)
@@ -94,8 +91,7 @@ void describe(Schema& s, ShellOutputOptions& shells)
 
 void describe(Schema& s, ProbeOptions& probe)
 {
-  s.key("name", probe.name,
-        {.doc = "Its name in messages and in the name of its file; no two probes share one.", .required = true});
+  describe_name(s, probe.name, "Its name in messages and in the name of its file; no two probes share one.");
   s.key("shell", probe.shell, {.doc = "The shell or body it sits on. Absent: it stands in the flow."});
   s.key("point", probe.point,
         {.doc = "Where: with `shell`, its vertex nearest to this point in the reference configuration.",

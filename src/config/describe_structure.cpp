@@ -2,24 +2,30 @@
 // Keys of [[shell]] and [[body]].
 #include "config/describe.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cctype>
 
 namespace luff::config {
 namespace {
 
+constexpr auto surface_name =
+    "Its name in messages and in the names of output files; no two shells or bodies share one.";
 constexpr double largest_poisson_ratio = 0.5;  // incompressible; plane stress stays finite there
 
-void describe_name(Schema& s, std::string& name)
+}  // namespace
+
+void describe_name(Schema& s, std::string& name, std::string_view doc)
 {
-  s.key("name", name,
-        {.doc = "Its name in messages and in the names of output files; no two shells or bodies share one.",
-         .required = true});
+  s.key("name", name, {.doc = doc, .required = true});
   const bool fit = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '-' || c == '_';
   });
   s.rule(fit, "name", "must be made of letters, digits, '-' and '_': files are named after it");
 }
+
+namespace {
 
 void describe_placement(Schema& s, PlacementOptions& placement)
 {
@@ -38,7 +44,7 @@ bool is_readable_mesh(const std::filesystem::path& file)
 
 void describe(Schema& s, ShellOptions& shell)
 {
-  describe_name(s, shell.name);
+  describe_name(s, shell.name, surface_name);
   s.table("mesh", shell.mesh, {.doc = "Triangles of the middle surface, free of stress as placed.", .required = true});
   describe_placement(s, shell.placement);
   s.key("thickness", shell.thickness, {.doc = "Thickness.", .unit = "m", .range = positive, .required = true});
@@ -146,7 +152,7 @@ void describe(Schema& s, PlaneOptions& plane)
 
 void describe(Schema& s, BodyOptions& body)
 {
-  describe_name(s, body.name);
+  describe_name(s, body.name, surface_name);
   s.table("mesh", body.mesh, {.doc = "Triangles of a thin rigid sheet.", .required = true});
   describe_placement(s, body.placement);
   s.table("motion", body.motion, {.doc = "How it moves from where it is placed. Absent: it doesn't."});

@@ -13,6 +13,7 @@
 #include <fmt/core.h>
 
 #include "config/nearest.hpp"
+#include "config/value_text.hpp"
 #include "core/error.hpp"
 
 namespace luff::config {
@@ -105,6 +106,40 @@ toml::node* child(toml::node& node, const std::string& part, const std::string& 
   fail_input("{}: '{}' cannot be set inside {}, which is not a table", source, part, shown(node));
 }
 
+std::string inline_toml(const toml::node& node);
+
+std::string inline_table(const toml::table& table)
+{
+  std::vector<std::string> entries;
+  for (auto&& [key, value] : table)
+    entries.push_back(fmt::format("{} = {}", key.str(), inline_toml(value)));
+  return fmt::format("{{ {} }}", joined(entries));
+}
+
+std::string inline_array(const toml::array& array)
+{
+  std::vector<std::string> entries;
+  for (const toml::node& value : array)
+    entries.push_back(inline_toml(value));
+  return fmt::format("[{}]", joined(entries));
+}
+
+/// Unlike toml++'s own formatters: on one line, and numbers with the fewest digits that tell them apart.
+std::string inline_toml(const toml::node& node)
+{
+  if (const auto* table = node.as_table())
+    return inline_table(*table);
+  if (const auto* array = node.as_array())
+    return inline_array(*array);
+  if (const auto* text = node.as_string())
+    return toml_string(text->get());
+  if (const auto* number = node.as_floating_point())
+    return fmt::format("{}", number->get());
+  std::ostringstream out;
+  node.visit([&out](const auto& value) { out << toml::toml_formatter{value}; });
+  return out.str();
+}
+
 std::string join_path(const std::vector<std::string>& parts, std::size_t first)
 {
   std::string path;
@@ -174,20 +209,7 @@ Place place_of(const toml::table& table, std::string_view key)
 std::string shown(const toml::node& node)
 {
   constexpr std::size_t longest = 60;
-  std::ostringstream out;
-  node.visit([&out](const auto& value) {
-    using Node = std::decay_t<decltype(value)>;
-    if constexpr (std::is_same_v<Node, toml::table>) {
-      toml::table copy = value;
-      copy.is_inline(true);
-      out << toml::toml_formatter{copy};
-    } else {
-      out << toml::toml_formatter{value};
-    }
-  });
-  std::string text = out.str();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  text.erase(std::unique(text.begin(), text.end(), [](char a, char b) { return a == ' ' && b == ' '; }), text.end());
+  const auto text = inline_toml(node);
   return text.size() <= longest ? text : text.substr(0, longest) + "...";
 }
 

@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include "config/case_rules.hpp"
+#include "config/describe.hpp"
 #include "config/nearest.hpp"
 #include "config/value_reader.hpp"
 #include "config/value_text.hpp"
@@ -58,6 +60,13 @@ Located locate(const toml::node& start, std::string_view path)
 Reader::Reader(const Document& document) : document_(document)
 {
   push(document.root(), "");
+}
+
+void Reader::read(Case& options)
+{
+  describe(*this, options);
+  state_case_rules(*this, options);
+  close_table();
 }
 
 void Reader::push(const toml::table& table, const std::string& path)
@@ -207,18 +216,17 @@ void Reader::exactly_one_of(std::initializer_list<std::string_view> keys)
 }
 
 /// Rules are about values: they wait until each value of the table can be read.
-void Reader::rule(bool holds, std::string_view key, const std::string& text)
+void Reader::rule(bool holds, std::string_view key, std::string_view text, const std::string& detail)
 {
   const Frame& frame = frames_.back();
   const bool applies = std::all_of(conditions_.begin(), conditions_.end(), [](const auto& c) { return c.holds; });
   if (holds || !applies || issues_.count() > frame.issues_before)
     return;
+  const bool is_case = frame.path.empty() && key.empty();
   const auto found = locate(*frame.table, key);
-  const bool is_table = found.node == nullptr || !found.node->is_value();
-  const auto place = frame.path.empty() && key.empty() ? document_.place() : found.place;
-  const auto path = frame.path.empty() && key.empty() ? "the case" : path_of(key);
-  issues_.add(place,
-              is_table ? fmt::format("{} {}", path, text) : fmt::format("{} = {} {}", path, shown(*found.node), text));
+  const auto subject = is_case ? "the case" : path_of(key);
+  const auto value = found.node && found.node->is_value() ? fmt::format(" = {}", shown(*found.node)) : "";
+  issues_.add(is_case ? document_.place() : found.place, fmt::format("{}{} {}{}", subject, value, text, detail));
 }
 
 void Reader::later(std::initializer_list<std::string_view> keys)

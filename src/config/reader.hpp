@@ -16,16 +16,11 @@ class Reader : public Schema {
   explicit Reader(const Document& document);
 
   /// Read the whole document. Meaningful only if no issue was found.
-  template <class T>
-  void read(T& options)
-  {
-    describe(*this, options);
-    close_table();
-  }
+  void read(Case& options);
   const Issues& issues() const { return issues_; }
 
   void exactly_one_of(std::initializer_list<std::string_view> keys) override;
-  void rule(bool holds, std::string_view key, const std::string& text) override;
+  void rule(bool holds, std::string_view key, std::string_view text, const std::string& detail) override;
   void later(std::initializer_list<std::string_view> keys) override;
 
  protected:

@@ -136,10 +136,9 @@ void Reference::exactly_one_of(std::initializer_list<std::string_view> keys)
   sections_[open_.back()].notes.push_back(fmt::format("Exactly one of {} must be given.", in_backticks(names)));
 }
 
-void Reference::rule(bool /*holds*/, std::string_view key, const std::string& text)
+void Reference::rule(bool /*holds*/, std::string_view key, std::string_view text, const std::string& /*detail*/)
 {
-  if (!key.empty())
-    sections_[open_.back()].notes.push_back(fmt::format("`{}` {}.", key, text));
+  sections_[open_.back()].notes.push_back(fmt::format("`{}` {}.", key, text));
 }
 
 void Reference::later(std::initializer_list<std::string_view> keys)

@@ -25,7 +25,7 @@ class Reference : public Schema {
   }
 
   void exactly_one_of(std::initializer_list<std::string_view> keys) override;
-  void rule(bool holds, std::string_view key, const std::string& text) override;
+  void rule(bool holds, std::string_view key, std::string_view text, const std::string& detail) override;
   void later(std::initializer_list<std::string_view> keys) override;
 
  protected:

@@ -17,7 +17,7 @@ class Resolution : public Schema {
   explicit Resolution(double factor);
 
   void exactly_one_of(std::initializer_list<std::string_view> /*keys*/) override {}
-  void rule(bool /*holds*/, std::string_view /*key*/, const std::string& /*text*/) override {}
+  void rule(bool, std::string_view, std::string_view, const std::string&) override {}
   void later(std::initializer_list<std::string_view> /*keys*/) override {}
 
  protected:

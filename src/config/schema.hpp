@@ -151,8 +151,9 @@ class Schema {
   /// The current table has one and only one of these keys.
   virtual void exactly_one_of(std::initializer_list<std::string_view> keys) = 0;
 
-  /// What must hold for a key (a path from the current table; "" for the table itself): "<key> <text>".
-  virtual void rule(bool holds, std::string_view key, const std::string& text) = 0;
+  /// What must hold for a key (a path from the current table; "" for the table itself): "<key> <text>". The detail
+  /// tells more about the case in which it does not.
+  virtual void rule(bool holds, std::string_view key, std::string_view text, const std::string& detail = "") = 0;
 
   /// Keys of the case-file language that this version does not have yet.
   virtual void later(std::initializer_list<std::string_view> keys) = 0;

@@ -22,21 +22,23 @@ void Writer::visit_key(std::string_view name, const Value& value, const Spec& /*
 bool Writer::open_table(std::string_view name, const TableSpec& /*spec*/)
 {
   const auto path = path_of(name);
-  tables_.push_back({path, fmt::format("\n[{}]\n", path), "", ""});
+  tables_.push_back({path, fmt::format("\n[{}]\n", path)});
   return true;
 }
 
 bool Writer::open_item(std::string_view name, std::size_t /*i*/, const TableSpec& /*spec*/)
 {
   const auto path = path_of(name);
-  tables_.push_back({path, fmt::format("\n[[{}]]\n", path), "", ""});
+  tables_.push_back({path, fmt::format("\n[[{}]]\n", path), true});
   return true;
 }
 
 void Writer::close_table()
 {
-  const Table closed = tables_.back();
+  Table closed = tables_.back();
   tables_.pop_back();
+  if (closed.keys.empty() && !closed.children.empty() && !closed.is_item)
+    closed.header.clear();
   tables_.back().children += closed.header + closed.keys + closed.children;
 }
 

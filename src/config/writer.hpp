@@ -21,7 +21,7 @@ class Writer : public Schema {
   }
 
   void exactly_one_of(std::initializer_list<std::string_view> /*keys*/) override {}
-  void rule(bool /*holds*/, std::string_view /*key*/, const std::string& /*text*/) override {}
+  void rule(bool, std::string_view, std::string_view, const std::string&) override {}
   void later(std::initializer_list<std::string_view> /*keys*/) override {}
 
  protected:
@@ -39,9 +39,10 @@ class Writer : public Schema {
   /// TOML wants the keys of a table before the tables in it.
   struct Table {
     std::string path;
-    std::string header;
-    std::string keys;
-    std::string children;
+    std::string header = {};
+    bool is_item = false;
+    std::string keys = {};
+    std::string children = {};
   };
   std::string path_of(std::string_view name) const;
 
