@@ -35,7 +35,7 @@ TEST(Oscillation, AmplitudeAndFrequencyOfASineWithAnOffset)
   EXPECT_NEAR(o->frequency, 0.318, 1e-5);
   EXPECT_NEAR(o->peak_to_peak, 1.0, 1e-4);
   EXPECT_NEAR(o->mean, 3, 1e-4);
-  EXPECT_EQ(o->periods, 4);
+  EXPECT_EQ(o->periods, 5);
 }
 
 TEST(Oscillation, ATransientBeforeTheWindowDoesNotCount)
