@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <tuple>
 
 #include "immersed/predicates.hpp"
@@ -233,9 +234,18 @@ void cross_lines(const grid::Grid& grid, int axis, const Corners& x, int triangl
       search.hit(cell, found);
 }
 
-auto order(const Crossing& x)
+/// By axis, then k, j, i of the face, then theta; the triangle settles what is left.
+void sort(std::vector<Crossing>& crossings, const Index3& cells)
 {
-  return std::tuple(x.axis, x.cell[2], x.cell[1], x.cell[0], x.theta, x.triangle);
+  const auto place = [&](const Crossing& x) {
+    const auto plane = static_cast<std::int64_t>(x.axis) * (cells[2] + 1) + x.cell[2];
+    return (plane * (cells[1] + 1) + x.cell[1]) * (cells[0] + 1) + x.cell[0];
+  };
+  std::sort(crossings.begin(), crossings.end(), [&](const Crossing& p, const Crossing& q) {
+    const std::int64_t at_p = place(p);
+    const std::int64_t at_q = place(q);
+    return at_p != at_q ? at_p < at_q : std::tie(p.theta, p.triangle) < std::tie(q.theta, q.triangle);
+  });
 }
 
 }  // namespace
@@ -255,7 +265,7 @@ std::vector<Crossing> find_crossings(const grid::Grid& grid, std::span<const Vec
     for (int axis = 0; axis < 3; ++axis)
       cross_lines(grid, axis, x, t, around, found);
   }
-  std::sort(found.begin(), found.end(), [](const Crossing& p, const Crossing& q) { return order(p) < order(q); });
+  sort(found, grid.cells());
   return found;
 }
 

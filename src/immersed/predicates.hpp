@@ -14,6 +14,8 @@ class ExactSum {
  public:
   void add(double term)
   {
+    if (term == 0.0)
+      return;
     int kept = 0;
     for (int m = 0; m < count_; ++m) {
       const double sum = term + terms_[m];
@@ -29,6 +31,8 @@ class ExactSum {
   }
   void add_product(double a, double b)
   {
+    if (a == 0.0 || b == 0.0)
+      return;
     const double product = a * b;
     add(std::fma(a, b, -product));
     add(product);
