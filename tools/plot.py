@@ -21,9 +21,9 @@ from pathlib import Path
 import matplotlib
 
 matplotlib.use("Agg")
-import matplotlib.patheffects as effects
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.collections import LineCollection
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkObject
 from vtkmodules.vtkIOXML import (vtkXMLPolyDataReader, vtkXMLPRectilinearGridReader, vtkXMLRectilinearGridReader)
@@ -139,11 +139,10 @@ class Sheet:
         """Segments (m, 2, 3) along which the plane x_axis = position cuts the triangles."""
         corners = self.points[self.triangles]
         distance = corners[:, :, axis] - position
+        crossed = (distance < 0).any(axis=1) & (distance >= 0).any(axis=1)
         segments = []
-        for x, d in zip(corners, distance):
+        for x, d in zip(corners[crossed], distance[crossed]):
             below = d < 0
-            if below.all() or not below.any():
-                continue
             ends = [x[i] + d[i] / (d[i] - d[j]) * (x[j] - x[i]) for i, j in ((0, 1), (1, 2), (2, 0)) if below[i] != below[j]]
             segments.append(ends)
         return np.array(segments).reshape(-1, 2, 3)
@@ -203,6 +202,10 @@ def flow_reader(path):
     reader = vtkXMLPRectilinearGridReader() if path.suffix == ".pvtr" else vtkXMLRectilinearGridReader()
     reader.SetFileName(str(path))
     reader.UpdateInformation()
+    arrays = reader.GetCellDataArraySelection()
+    arrays.DisableAllArrays()
+    for name in ("vorticity", "velocity"):
+        arrays.EnableArray(name)
     return reader
 
 
@@ -269,19 +272,16 @@ def largest_shown(slices, limits):
     return limit if limit > 0 else 1.0
 
 
-def draw_sections(axis, sheets, plane, colour="black", width=2.2, halo=True):
-    a, b = plane.axes
-    for sheet in sheets:
-        for segment in sheet.cut(plane.normal, plane.position):
-            line, = axis.plot(segment[:, a], segment[:, b], color=colour, linewidth=width, solid_capstyle="round")
-            if halo:
-                line.set_path_effects([effects.Stroke(linewidth=width + 1.6, foreground="white"), effects.Normal()])
+def draw_sections(axis, sheets, plane, colour="black", width=2.2):
+    segments = [sheet.cut(plane.normal, plane.position)[:, :, plane.axes] for sheet in sheets]
+    if segments:
+        axis.add_collection(LineCollection(np.concatenate(segments), colors=[colour], linewidths=width, capstyle="round"))
 
 
 def draw_vorticity(axis, flow, sheets, limits, colour_limit, time):
     image = axis.pcolormesh(*flow.centres, flow.vorticity, shading="gouraud", cmap="RdBu_r", vmin=-colour_limit,
                             vmax=colour_limit, rasterized=True)
-    draw_sections(axis, sheets, flow.plane, halo=False)
+    draw_sections(axis, sheets, flow.plane)
     axis.set_aspect("equal")
     axis.grid(False)
     axis.set_xlim(limits[0][0], limits[1][0])
@@ -290,10 +290,8 @@ def draw_vorticity(axis, flow, sheets, limits, colour_limit, time):
     return image
 
 
-def label_plane(axis, plane):
-    a, b = plane.axes
-    axis.set_xlabel(f"{AXES[a]} [length]")
-    axis.set_ylabel(f"{AXES[b]} [length]")
+def coordinate_label(axis):
+    return f"{AXES[axis]} [length]"
 
 
 def colour_bar(figure, image, axes, plane):
@@ -309,7 +307,8 @@ def panel_grid(count, limits):
     columns = 1 if count == 1 else 3 if aspect > 0.5 and count > 4 else 2
     rows = -(-count // columns)
     width = 9.0 if columns == 1 else 4.6 * columns
-    return rows, columns, (width, max(2.5, (width / columns * aspect + 0.45) * rows))
+    panel = 0.84 * width / columns   # what the colour bar and the labels leave
+    return rows, columns, (width, max(2.5, (panel * aspect + 0.4) * rows + 0.4))
 
 
 def vorticity_figure(frames, limits, path):
@@ -322,8 +321,8 @@ def vorticity_figure(frames, limits, path):
         image = draw_vorticity(axis, flow, sheets, limits, colour_limit, time)
     for axis in axes.flat[len(frames):]:
         axis.set_visible(False)
-    for axis in axes[-1]:
-        label_plane(axis, flow.plane)
+    figure.supxlabel(coordinate_label(flow.plane.axes[0]), fontsize=10)
+    figure.supylabel(coordinate_label(flow.plane.axes[1]), fontsize=10)
     colour_bar(figure, image, axes, flow.plane)
     return save(figure, path)
 
@@ -353,17 +352,17 @@ def plot_shapes(surfaces, normal, out, count=16):
     if all(np.array_equal(series[0][1].points, sheet.points) for series in shapes for _, sheet in series):
         return None
     plane = mid_plane(everything, normal)
-    size = np.ptp(np.vstack([sheet.points for sheet in everything]), axis=0).max()
-    plane.position += 1e-9 * size   # off the vertices, where a plane of symmetry often has a row of them
     times = [time for series in shapes for time, _ in series]
     scale = plt.Normalize(min(times), max(times))
     figure, axis = plt.subplots(figsize=(8, 5), constrained_layout=True)
     for series in shapes:
         for time, sheet in series:
-            draw_sections(axis, [sheet], plane, colour=plt.cm.viridis(scale(time)), width=1.6, halo=False)
+            draw_sections(axis, [sheet], plane, colour=plt.cm.viridis(scale(time)), width=1.6)
+    axis.autoscale()
     axis.set_aspect("equal", adjustable="datalim")
     axis.set_title(f"sheets cut by the plane {AXES[plane.normal]} = {plane.position:.4g}", loc="left", fontweight="bold")
-    label_plane(axis, plane)
+    axis.set_xlabel(coordinate_label(plane.axes[0]))
+    axis.set_ylabel(coordinate_label(plane.axes[1]))
     bar = figure.colorbar(plt.cm.ScalarMappable(scale, "viridis"), ax=axis, shrink=0.75, pad=0.02)
     bar.set_label("t [time]")
     return save(figure, out / "shapes.png")

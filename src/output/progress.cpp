@@ -33,6 +33,39 @@ std::string duration(double seconds)
   return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
 }
 
+using Part = ProgressPart;
+
+std::string joined(const std::vector<Part>& parts)
+{
+  std::string text;
+  for (const Part& part : parts)
+    text += (text.empty() ? "" : gap) + part.text;
+  return text;
+}
+
+/// Leaves out what matters least until the line fits; cuts it off if nothing else helps.
+std::string fitted(std::vector<Part> parts, std::size_t width)
+{
+  const auto by_importance = [](const Part& a, const Part& b) { return a.importance < b.importance; };
+  while (parts.size() > 1 && joined(parts).size() > width)
+    parts.erase(std::min_element(parts.begin(), parts.end(), by_importance));
+  return joined(parts).substr(0, width);
+}
+
+std::vector<Part> parts_of_step(const StepProgress& p, double t_end)
+{
+  std::vector<Part> parts{{7, fmt::format("step {}", p.step)}, {8, fmt::format("t {:.5g} of {:.5g}", p.t, t_end)}};
+  if (p.cfl)
+    parts.push_back({2, fmt::format("CFL {:.2f}", *p.cfl)});
+  if (p.pressure_iterations)
+    parts.push_back({1, fmt::format("pressure {}", *p.pressure_iterations)});
+  if (p.coupling_iterations)
+    parts.push_back({3, fmt::format("coupling {}", *p.coupling_iterations)});
+  if (p.probe)
+    parts.push_back({5, fmt::format("{} {:.4f}", p.probe_name, *p.probe)});
+  return parts;
+}
+
 }  // namespace
 
 ProgressOptions progress_on_standard_output(double t_end, double cells)
@@ -81,9 +114,7 @@ void Progress::measure(double t, double now)
 
 void Progress::show(const StepProgress& progress)
 {
-  std::string text = line(progress);
-  if (options_.style == ProgressStyle::Live && options_.width > 0)
-    text.resize(std::min<std::size_t>(text.size(), options_.width));
+  const std::string text = line(progress);
   if (options_.style == ProgressStyle::Live)
     out_ << clear_line << text << std::flush;
   else
@@ -91,25 +122,24 @@ void Progress::show(const StepProgress& progress)
   pending_.reset();
 }
 
-std::string Progress::line(const StepProgress& p) const
+std::string Progress::line(const StepProgress& progress) const
 {
-  std::string text = fmt::format("step {}{}t {:.5g} of {:.5g}", p.step, gap, p.t, options_.t_end);
-  if (p.cfl)
-    text += fmt::format("{}CFL {:.2f}", gap, *p.cfl);
-  if (p.pressure_iterations)
-    text += fmt::format("{}pressure {}", gap, *p.pressure_iterations);
-  if (p.coupling_iterations)
-    text += fmt::format("{}coupling {}", gap, *p.coupling_iterations);
-  if (p.probe)
-    text += fmt::format("{}{} {:.4f}", gap, p.probe_name, *p.probe);
+  std::vector<Part> parts = parts_of_step(progress, options_.t_end);
+  add_speed(progress, parts);
+  const bool narrow = options_.style == ProgressStyle::Live && options_.width > 0;
+  return narrow ? fitted(std::move(parts), options_.width) : joined(parts);
+}
+
+void Progress::add_speed(const StepProgress& p, std::vector<Part>& parts) const
+{
   if (!seconds_per_step_)
-    return text;
-  text += fmt::format("{}{:.3g} s/step", gap, *seconds_per_step_);
-  if (options_.cells > 0 && *seconds_per_step_ > 0)
-    text += fmt::format("{}{:.3g} Mcells/s", gap, 1e-6 * options_.cells / *seconds_per_step_);
+    return;
+  const double seconds = *seconds_per_step_;
+  parts.push_back({4, fmt::format("{:.3g} s/step", seconds)});
+  if (options_.cells > 0 && seconds > 0)
+    parts.push_back({0, fmt::format("{:.3g} Mcells/s", 1e-6 * options_.cells / seconds)});
   if (time_per_step_ > 0)
-    text += fmt::format("{}{} left", gap, duration((options_.t_end - p.t) / time_per_step_ * *seconds_per_step_));
-  return text;
+    parts.push_back({6, fmt::format("ETA {}", duration((options_.t_end - p.t) / time_per_step_ * seconds))});
 }
 
 }  // namespace luff::output

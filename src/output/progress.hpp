@@ -6,6 +6,7 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace luff::output {
 
@@ -34,6 +35,12 @@ struct ProgressOptions {
 /// elsewhere.
 ProgressOptions progress_on_standard_output(double t_end, double cells);
 
+/// A word of the line; where the line is too narrow the least important are left out.
+struct ProgressPart {
+  int importance;
+  std::string text;
+};
+
 /// Measures seconds per step itself, as a mean that forgets slowly.
 class Progress {
  public:
@@ -52,6 +59,7 @@ class Progress {
 
  private:
   void measure(double t, double now);
+  void add_speed(const StepProgress& progress, std::vector<ProgressPart>& parts) const;
   void show(const StepProgress& progress);
 
   std::ostream& out_;

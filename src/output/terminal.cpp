@@ -9,7 +9,8 @@ namespace luff::output {
 
 bool standard_output_is_terminal()
 {
-  return isatty(STDOUT_FILENO) == 1;
+  // mpirun gives its first rank a terminal of its own as output wherever that goes, but never as input.
+  return isatty(STDOUT_FILENO) == 1 && isatty(STDIN_FILENO) == 1;
 }
 
 int terminal_width()
