@@ -22,21 +22,36 @@ Dynamics::Dynamics(const Shell& shell, const std::vector<Load>& loads, DynamicsO
   ensure(state_.v.size() == state_.x.size(), "an initial velocity has three numbers per vertex");
   shell_.clear_held(state_.v);
   state_.t = t0;
-  freeze_damping();
-  external_ = loads_.force(state_.x, t0);
+  freeze_damping(state_.x);
+  prescribed_forces_ = loads_.force(state_.x, t0);
+  fluid_forces_ = Eigen::VectorXd::Zero(state_.x.size());
   state_.a = consistent_acceleration();
   ledger_.kinetic = 0.5 * state_.v.dot(shell_.mass_times(state_.v));
   ledger_.elastic = shell_.elastic_energy(state_.x);
 }
 
-void Dynamics::restore(const State& state, const Eigen::VectorXd& fluid_forces, const EnergyLedger& ledger, int step)
+Checkpoint Dynamics::checkpoint() const
 {
-  state_ = state;
-  ledger_ = ledger;
-  step_ = step;
-  external_ = loads_.force(state_.x, state_.t) + fluid_forces;
-  freeze_damping();
-  tangent_.valid = false;
+  return {state_, ledger_, fluid_forces_, tangent_.valid ? linearisation_ : Linearisation{}, step_};
+}
+
+void Dynamics::restore(const Checkpoint& checkpoint)
+{
+  state_ = checkpoint.state;
+  ledger_ = checkpoint.ledger;
+  fluid_forces_ = checkpoint.fluid_forces;
+  linearisation_ = checkpoint.linearisation;
+  step_ = checkpoint.step;
+  slow_ = false;
+  prescribed_forces_ = loads_.force(state_.x, state_.t);
+  tangent_.valid = linearisation_.x.size() > 0;
+  if (tangent_.valid) {
+    freeze_damping(linearisation_.x_frozen);
+    tangent_.K.set_zero();
+    assemble_tangent(linearisation_.x, linearisation_.t, linearisation_.dt, tangent_.K);
+    tangent_.solver->factorise(tangent_.K);
+  }
+  freeze_damping(state_.x);
 }
 
 /// M a = f_ext - f_int - D v on the free displacements.
@@ -46,15 +61,15 @@ Eigen::VectorXd Dynamics::consistent_acceleration() const
   shell_.add_mass(1, mass);
   const auto solver = make_linear_solver(LinearSolverKind::Direct, *shell_.pattern(), shell_.held());
   solver->factorise(mass);
-  return solver->solve(external_ - shell_.internal_force(state_.x) - damping_force(state_.v));
+  return solver->solve(prescribed_forces_ - shell_.internal_force(state_.x) - damping_force(state_.v));
 }
 
-void Dynamics::freeze_damping()
+void Dynamics::freeze_damping(const Eigen::VectorXd& x)
 {
   if (shell_.properties().damping_stiffness == 0)
     return;
   material_stiffness_.set_zero();
-  shell_.add_material_stiffness(state_.x, material_stiffness_);
+  shell_.add_material_stiffness(x, material_stiffness_);
 }
 
 /// D v with D = f_m M + f_k K_mat(x_n).
@@ -86,15 +101,24 @@ Kinematics Dynamics::kinematics(const Eigen::VectorXd& positions, double dt) con
   return k;
 }
 
+/// K + 4/dt^2 M + 2/dt D - d f_ext/dx
+void Dynamics::assemble_tangent(const Eigen::VectorXd& x, double t, double dt, BlockMatrix& K) const
+{
+  const Properties& p = shell_.properties();
+  shell_.add_tangent(x, K);
+  shell_.add_mass(4 / (dt * dt) + 2 / dt * p.damping_mass, K);
+  if (p.damping_stiffness > 0)
+    K.add(2 / dt * p.damping_stiffness, material_stiffness_);
+  loads_.subtract_stiffness(x, t, 1, K);
+}
+
 Dynamics::Trial Dynamics::solve(double t_new, double dt, const Eigen::VectorXd& fluid_forces,
                                 const Eigen::VectorXd& guess)
 {
   ensure(dt > 0 && fluid_forces.size() == state_.x.size() && guess.size() == state_.x.size(),
          "a step needs dt > 0 and three numbers per vertex");
-  if (dt != tangent_dt_)
+  if (dt != linearisation_.dt)
     tangent_.valid = false;
-  tangent_dt_ = dt;
-  const Properties& p = shell_.properties();
   const Equilibrium equilibrium{
       .residual = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
         const Kinematics k = kinematics(x, dt);
@@ -103,17 +127,17 @@ Dynamics::Trial Dynamics::solve(double t_new, double dt, const Eigen::VectorXd& 
       },
       .tangent =
           [&](const Eigen::VectorXd& x, BlockMatrix& K) {
-            shell_.add_tangent(x, K);
-            shell_.add_mass(4 / (dt * dt) + 2 / dt * p.damping_mass, K);
-            if (p.damping_stiffness > 0)
-              K.add(2 / dt * p.damping_stiffness, material_stiffness_);
-            loads_.subtract_stiffness(x, t_new, 1, K);
+            assemble_tangent(x, t_new, dt, K);
+            linearisation_ = {x, state_.x, t_new, dt};
           },
   };
   Eigen::VectorXd offset = guess - state_.x;
   shell_.clear_held(offset);
   Trial trial{state_.x + offset, {}};
   trial.report = newton(shell_, equilibrium, options_.newton, tangent_, trial.positions, when(t_new));
+  // From here on a new tangent is cheaper than more iterations with the old one.
+  constexpr int many = 6;
+  slow_ = slow_ || trial.report.iterations > many;
   return trial;
 }
 
@@ -121,17 +145,20 @@ Folds Dynamics::accept(const Eigen::VectorXd& positions, double t_new, double dt
 {
   const Folds report = check_folds(shell_, positions, when(t_new));
   const Kinematics k = kinematics(positions, dt);
-  const Eigen::VectorXd external = loads_.force(positions, t_new) + fluid_forces;
+  const Eigen::VectorXd prescribed = loads_.force(positions, t_new);
   const Eigen::VectorXd moved = positions - state_.x;
-  ledger_.external_work += 0.5 * moved.dot(external_ + external);
+  ledger_.external_work += 0.5 * moved.dot(prescribed_forces_ + fluid_forces_ + prescribed + fluid_forces);
   ledger_.damping_work += 0.5 * moved.dot(damping_force(state_.v + k.v));
   ledger_.kinetic = 0.5 * k.v.dot(shell_.mass_times(k.v));
   ledger_.elastic = shell_.elastic_energy(positions);
   state_ = {positions, k.v, k.a, t_new};
-  external_ = external;
+  prescribed_forces_ = prescribed;
+  fluid_forces_ = fluid_forces;
   ++step_;
-  freeze_damping();
-  tangent_.valid = false;
+  freeze_damping(state_.x);
+  if (slow_)
+    tangent_.valid = false;
+  slow_ = false;
   return report;
 }
 

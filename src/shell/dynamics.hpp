@@ -41,14 +41,31 @@ struct DynamicsOptions {
   LinearSolverKind linear_solver = LinearSolverKind::Direct;
 };
 
+/// Where the tangent in use was taken, so that a restart can take it again.
+struct Linearisation {
+  Eigen::VectorXd x;         ///< of the stiffness; empty: none, the next solve() takes a new one
+  Eigen::VectorXd x_frozen;  ///< of the damping
+  double t = 0;
+  double dt = 0;
+};
+
+/// All that the next step depends on; restoring it gives the same bits as going on.
+struct Checkpoint {
+  State state;
+  EnergyLedger ledger;
+  Eigen::VectorXd fluid_forces;
+  Linearisation linearisation;
+  int step = 0;
+};
+
 /// Solves M a + D v + f_int(x) = f_ext(x, t) + f_fluid step by step, with Rayleigh damping D = f_m M + f_k K_mat(x_n)
 /// frozen in the step. Newmark (newmark_1959_method):
 ///
 ///   a = 4/dt^2 (x - x_n - dt v_n) - a_n,   v = v_n + dt/2 (a_n + a).
 ///
 /// solve() only computes; the accepted state changes in accept() alone, so a step can be repeated with other fluid
-/// forces. The tangent is factorised in the first solve() of a step, which therefore doesn't depend on what was
-/// computed before the accepted state; later ones reuse it.
+/// forces. The factorised tangent is kept, across steps too, for as long as it converges fast: a repeated solve() costs
+/// a few evaluations of the force. What it converges to doesn't depend on the tangent but for the last digits.
 class Dynamics {
  public:
   struct Trial {
@@ -66,8 +83,9 @@ class Dynamics {
   const EnergyLedger& ledger() const { return ledger_; }
   int step() const { return step_; }
 
-  /// Continue from a stored state, its fluid forces and ledger (restart).
-  void restore(const State& state, const Eigen::VectorXd& fluid_forces, const EnergyLedger& ledger, int step);
+  Checkpoint checkpoint() const;
+  /// Go on from a checkpoint of the same shell, loads and options.
+  void restore(const Checkpoint& checkpoint);
 
   /// Second-order extrapolation x + dt v + dt^2/2 a, held displacements kept.
   Eigen::VectorXd predicted_positions(double dt) const;
@@ -85,7 +103,8 @@ class Dynamics {
  private:
   Eigen::VectorXd consistent_acceleration() const;
   Eigen::VectorXd damping_force(const Eigen::VectorXd& v) const;
-  void freeze_damping();
+  void freeze_damping(const Eigen::VectorXd& x);
+  void assemble_tangent(const Eigen::VectorXd& x, double t, double dt, BlockMatrix& K) const;
   std::string when(double t_new) const;
 
   const Shell& shell_;
@@ -93,10 +112,12 @@ class Dynamics {
   DynamicsOptions options_;
   State state_;
   EnergyLedger ledger_;
-  Eigen::VectorXd external_;  ///< prescribed and fluid forces of the accepted state
+  Eigen::VectorXd prescribed_forces_;  ///< of the accepted state
+  Eigen::VectorXd fluid_forces_;       ///< of the accepted state
   BlockMatrix material_stiffness_;
   KeptTangent tangent_;
-  double tangent_dt_ = 0;
+  Linearisation linearisation_;
+  bool slow_ = false;  ///< a solve since the last accept took many iterations
   int step_ = 0;
 };
 

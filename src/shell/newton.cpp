@@ -37,6 +37,14 @@ void renew(const Equilibrium& equilibrium, const Eigen::VectorXd& x, KeptTangent
   ++report.factorisations;
 }
 
+/// Growing, or shrinking by less than the wanted rate per iteration over the last two.
+bool is_slow(const std::vector<double>& increments, double rate)
+{
+  const std::size_t n = increments.size();
+  return (n >= 2 && increments[n - 1] > increments[n - 2]) ||
+         (n >= 3 && increments[n - 1] > rate * rate * increments[n - 3]);
+}
+
 }  // namespace
 
 NewtonReport newton(const Shell& shell, const Equilibrium& equilibrium, const NewtonPolicy& policy,
@@ -68,8 +76,7 @@ NewtonReport newton(const Shell& shell, const Equilibrium& equilibrium, const Ne
     }
     if (report.iterations == policy.max_iterations)
       fail(shell, report, x, dx, when);
-    const bool slow = report.iterations > 1 && report.increment > policy.slow * last;
-    tangent.valid = policy.slow > 0 && !slow;
+    tangent.valid = policy.slow > 0 && !is_slow(report.increments, policy.slow);
     last = report.increment;
   }
 }

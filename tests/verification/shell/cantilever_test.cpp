@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Large deflections of a cantilever under an end shear force (sze_2004_popular, section 3.1).
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "shell/statics.hpp"
+#include "support/shells.hpp"
+
+namespace luff::shell {
+namespace {
+
+struct TipRow {
+  double minus_u;
+  double w;
+};
+
+/// Rows of the published table, load fractions 0.05, 0.10, ... 1.
+std::vector<TipRow> published()
+{
+  std::ifstream file(LUFF_SOURCE_DIR "/validation/data/sze2004_cantilever_end_shear.csv");
+  std::vector<TipRow> rows;
+  for (std::string line; std::getline(file, line);) {
+    double fraction = 0;
+    TipRow row{};
+    char comma = 0;
+    if (std::istringstream(line) >> fraction >> comma >> row.minus_u >> comma >> row.w)
+      rows.push_back(row);
+  }
+  return rows;
+}
+
+const Properties beam{.thickness = 0.1, .density = 1, .young = 1.2e6, .poisson = 0};
+constexpr double end_force = 4;
+
+struct Cantilever {
+  explicit Cantilever(unsigned seed)
+      : mesh(test::sheet(10, 1, 32, 4, surface::Pattern::Irregular, seed)),
+        tip(test::vertices_where(mesh, [](auto& X) { return X.x() == 10; })),
+        shell(mesh, beam, {{.kind = SupportKind::Clamped, .vertices = test::vertices_where(mesh, [](auto& X) {
+                                                            return X.x() == 0;
+                                                          })}})
+  {
+  }
+
+  std::vector<Load> loads() const
+  {
+    return {PointForce{tip, [](const Vec3&, double) { return Vec3(0, 0, end_force); }}};
+  }
+
+  TipRow tip_displacement(const Eigen::VectorXd& x) const
+  {
+    Vec3 mean = Vec3::Zero();
+    for (const int v : tip)
+      mean += (x.segment<3>(3 * v) - mesh.vertices[v]) / static_cast<double>(tip.size());
+    return {-mean.x(), mean.z()};
+  }
+
+  surface::TriangleMesh mesh;
+  std::vector<int> tip;
+  Shell shell;
+};
+
+TEST(Cantilever, EndShearFollowsThePublishedTableWithinHalfAPercent)
+{
+  const std::vector<TipRow> table = published();
+  ASSERT_EQ(table.size(), 20u);
+  for (const unsigned seed : {1u, 7u}) {
+    const Cantilever cantilever(seed);
+    double error_u = 0, error_w = 0;
+    TipRow last{};
+    solve_static(cantilever.shell, cantilever.loads(), {.steps = 20}, [&](const StaticStep& step) {
+      last = cantilever.tip_displacement(step.positions);
+      error_u = std::max(error_u, std::abs(last.minus_u - table[step.step - 1].minus_u));
+      error_w = std::max(error_w, std::abs(last.w - table[step.step - 1].w));
+    });
+    error_u /= table.back().minus_u;
+    error_w /= table.back().w;
+    std::printf(
+        "  seed %u: full load -u = %.4f, w = %.4f; largest error over the table %.2f %%, %.2f %% of the last row\n",
+        seed, last.minus_u, last.w, 100 * error_u, 100 * error_w);
+    EXPECT_LT(error_u, 0.005);
+    EXPECT_LT(error_w, 0.005);
+  }
+}
+
+// A thick strip bent far in one step: in thin ones the stretch that a linear turn leaves behind alternates with
+// the bending and hides the order.
+TEST(Cantilever, NewtonConvergesQuadratically)
+{
+  const surface::TriangleMesh mesh = test::sheet(1, 0.3, 8, 2);
+  const Shell shell(
+      mesh, {.thickness = 0.3, .density = 1, .young = 1, .poisson = 0.3},
+      {{.kind = SupportKind::Clamped, .vertices = test::vertices_where(mesh, [](auto& X) { return X.x() == 0; })}});
+  const std::vector<int> tip = test::vertices_where(mesh, [](auto& X) { return X.x() == 1; });
+  const StaticStep last =
+      solve_static(shell, {PointForce{tip, [](const Vec3&, double) { return Vec3(0, 0, 1e-3); }}}, {.steps = 2});
+  const std::vector<double>& e = last.report.increments;
+  std::printf("  increments:");
+  for (const double increment : e)
+    std::printf(" %.1e", increment);
+  // The last increments that are clear of round-off.
+  std::size_t end = e.size();
+  while (end > 0 && e[end - 1] < 1e-13)
+    --end;
+  ASSERT_GE(end, 3u);
+  const double order = std::log(e[end - 1] / e[end - 2]) / std::log(e[end - 2] / e[end - 3]);
+  std::printf("; order %.2f\n", order);
+  EXPECT_GT(order, 1.8);
+}
+
+TEST(Cantilever, ConjugateGradientsFindTheSameEquilibrium)
+{
+  const Cantilever cantilever(7);
+  const StaticStep direct = solve_static(cantilever.shell, cantilever.loads(), {.steps = 10});
+  const StaticStep iterative = solve_static(cantilever.shell, cantilever.loads(),
+                                            {.steps = 10, .linear_solver = LinearSolverKind::ConjugateGradients});
+  const double difference = (direct.positions - iterative.positions).lpNorm<Eigen::Infinity>();
+  std::printf("  largest difference %.1e of the length\n", difference / 10);
+  EXPECT_LT(difference, 1e-8 * 10);
+}
+
+// The pressure follows the strip, the load stiffness keeps Newton's method fast.
+TEST(Cantilever, FollowerPressureKeepsPressingAlongTheNormal)
+{
+  const Cantilever cantilever(7);
+  const double p = 1.0;
+  const std::vector<Load> pressure{Pressure{{}, [=](const Vec3&, double) { return p; }}};
+  const StaticStep loaded = solve_static(cantilever.shell, pressure, {.steps = 10});
+  const Eigen::VectorXd reaction = cantilever.shell.internal_force(loaded.positions);
+  const Eigen::VectorXd load = Loads(cantilever.shell, pressure).force(loaded.positions, 0);
+  Eigen::VectorXd out_of_balance = load - reaction;
+  cantilever.shell.clear_held(out_of_balance);
+  EXPECT_LT(out_of_balance.norm(), 1e-6 * load.norm());
+  // The work rate of a pressure is p times the swept volume: force components follow the turned normals.
+  Vec3 total = Vec3::Zero(), exact = Vec3::Zero();
+  for (int v = 0; v < cantilever.shell.n_vertices(); ++v)
+    total += load.segment<3>(3 * v);
+  for (const auto& t : cantilever.mesh.triangles)
+    exact += p * surface::area_vector(loaded.positions.segment<3>(3 * t[0]), loaded.positions.segment<3>(3 * t[1]),
+                                      loaded.positions.segment<3>(3 * t[2]));
+  EXPECT_LT((total - exact).norm(), 1e-12 * exact.norm());
+  EXPECT_GT(std::abs(total.x()), 0.2 * total.norm());
+}
+
+}  // namespace
+}  // namespace luff::shell
