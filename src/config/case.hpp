@@ -13,8 +13,9 @@ namespace luff::config {
 
 /// What the command line changes in a case file.
 struct Overrides {
-  std::vector<std::string> sets;  ///< "time.end=2", "shell.0.thickness=0.02", "shell.flag.density=3", "title='Slow'"
-  double resolution = 1.0;        ///< multiplies cell and division counts, divides spacings and the step
+  std::vector<std::string> sets =
+      {};                   ///< "time.end=2", "shell.0.thickness=0.02", "shell.flag.density=3", "title='Slow'"
+  double resolution = 1.0;  ///< multiplies cell and division counts, divides spacings and the step
 };
 
 /// Read a TOML case file, check all of it, and fill in the defaults. Paths in it are relative to its folder and

@@ -100,7 +100,7 @@ bool Reader::is_forbidden(std::string_view name)
   const auto broken = std::find_if(conditions_.begin(), conditions_.end(), [](const auto& c) { return !c.holds; });
   if (broken == conditions_.end())
     return false;
-  if (frames_.back().table->contains(name))
+  if (broken->is_certain && frames_.back().table->contains(name))
     issues_.add(place_of_key(name), fmt::format("{} goes only with {}", path_of(name), broken->text));
   return true;
 }
@@ -195,7 +195,8 @@ void Reader::report_unknown(std::string_view name)
 
 bool Reader::open_condition(bool holds, std::string_view condition)
 {
-  conditions_.push_back({holds, std::string(condition)});
+  const bool is_certain = issues_.count() == frames_.back().issues_before;
+  conditions_.push_back({holds, is_certain, std::string(condition)});
   return true;
 }
 

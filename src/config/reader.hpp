@@ -44,6 +44,7 @@ class Reader : public Schema {
   };
   struct Condition {
     bool holds;
+    bool is_certain;  ///< nothing was wrong in the table when the condition was stated
     std::string text;
   };
 

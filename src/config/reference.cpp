@@ -12,6 +12,13 @@
 namespace luff::config {
 namespace {
 
+const std::string introduction =
+    "This page is written by `luff options` from the descriptions that also check a case file. Units are examples: any "
+    "consistent set will do, or none if the case is non-dimensional. A formula is text in quotes such as \"1 - "
+    "cos(2*pi*t)\", in the language of muParser with `pi`; `{ file = \"wave.csv\", scale = 1 }` is a function of time: "
+    "two "
+    "columns, time and value, joined by straight lines and constant before the first and after the last.";
+
 std::string in_backticks(const std::vector<std::string>& names)
 {
   std::string text;
@@ -149,7 +156,8 @@ void Reference::later(std::initializer_list<std::string_view> keys)
 
 std::string Reference::text() const
 {
-  std::string all;
+  std::string all = format_ == Format::Markdown ? "# Options of a case file\n\n" + introduction + "\n\n"
+                                                : wrapped(introduction, "") + '\n';
   for (const auto& section : sections_)
     all += format_ == Format::Markdown ? as_markdown(section) : as_text(section);
   return all;

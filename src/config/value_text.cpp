@@ -17,7 +17,7 @@ Overloaded(Functions...) -> Overloaded<Functions...>;
 
 std::string allowed_expression(const Spec& spec)
 {
-  return fmt::format("a number, a formula of {} in quotes, or {{ file, scale }}", spec.time_only ? "t" : "x, y, z, t");
+  return fmt::format("a number, a formula of {}, or {{ file, scale }}", spec.time_only ? "t" : "x, y, z, t");
 }
 
 std::string number(double value)
