@@ -138,7 +138,7 @@ std::string FlowSeries::write_pieces(const std::string& stem, double time, const
   MPI_Barrier(comm);
 
   const bool alone = extents.size() == 1;
-  const std::string piece = alone ? stem + ".vtr" : piece_name(stem, rank_in(comm));
+  std::string piece = alone ? stem + ".vtr" : piece_name(stem, rank_in(comm));
   if (!everywhere(comm, write_piece(snapshot, time, folder / piece)))
     fail_run("{}: cannot be written at t = {}; is the disk full, or the folder gone?", (folder / stem).string(), time);
   if (alone)

@@ -96,7 +96,7 @@ fs::path make_numbered(const fs::path& runs_of_case)
 {
   make_folders(runs_of_case);
   for (int number = highest_number(runs_of_case) + 1;; ++number) {
-    const fs::path folder = runs_of_case / fmt::format("{:03}", number);
+    fs::path folder = runs_of_case / fmt::format("{:03}", number);
     std::error_code error;
     if (fs::create_directory(folder, error))  // false when another run was faster
       return folder;
