@@ -147,7 +147,7 @@ class LineSearch {
   /// Whether the hit lies above the displaced centre at `centre`.
   bool hit_is_above(double centre) const
   {
-    // The weights are right to 2^-43 each, which bounds the error of the distance by 2^-41 reach.
+    // Areas right to 2^-45 make weights right to 2^-44 of themselves, and the distance to 2^-43 reach.
     constexpr double doubt = 0x1p-40;
     const auto [distance, reach] = distance_to_hit(centre);
     if (std::abs(distance) > doubt * reach)

@@ -28,11 +28,13 @@ struct Crossing {
 ///
 /// Watertight: the hits are those of exact arithmetic on centres moved by an infinitesimal (-e1, -e2, -e3), e1 >> e2 >>
 /// e3 > 0, the same for every link and triangle.  Hence no line slips through a shared edge or vertex, none is counted
-/// twice, a closed surface is crossed an even number of times along every line and around every loop of links, and a
-/// hit on a centre belongs to the link [x_P, x_N) of an axis-normal plane.  See docs/numerics/crossings.md.
+/// twice, and along every line and around every loop of links a closed surface is crossed as often inwards as outwards.
+/// A sheet in a plane of centres normal to x is hit at theta = 0 of the links above it; on an oblique plane through
+/// centres some hits lie at theta = 1, given as the largest number below 1.  See docs/numerics/crossings.md.
 ///
 /// Links join centres: along a non-periodic axis none reaches beyond the first or last centre; along a periodic axis
-/// the link that wraps around is that of face 0 and of face `cells`, and its hits are listed under both.
+/// the link that wraps around is that of face 0 and of face `cells`, and its hits are listed under both.  A
+/// wall-bounded axis of one cell has no links.
 ///
 /// positions: vertices [L], inside the domain along periodic axes, anywhere along the others.
 /// triangles: three vertex numbers each; corners counter-clockwise seen from the side the normal points to.  Triangles
