@@ -1,2 +1,136 @@
 // SPDX-License-Identifier: BSD-3-Clause
-int main() { return 0; }
+// The program: reads the command line and calls a command.
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <mpi.h>
+#include <omp.h>
+#include <unistd.h>
+
+#include "config/case.hpp"
+#include "core/error.hpp"
+#include "simulation/commands.hpp"
+
+namespace {
+
+volatile std::sig_atomic_t interrupts = 0;
+
+/// The first Ctrl-C ends the run after the step; the second ends the program at once.
+extern "C" void on_interrupt(int)
+{
+  interrupts = interrupts + 1;
+  if (interrupts > 1)
+    _exit(130);
+}
+
+/// All cores of this machine shared among its ranks, unless --threads or OMP_NUM_THREADS says otherwise.
+void set_threads(int wanted)
+{
+  if (wanted == 0 && std::getenv("OMP_NUM_THREADS") != nullptr)
+    return;
+  MPI_Comm node = MPI_COMM_NULL;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
+  int ranks = 1;
+  MPI_Comm_size(node, &ranks);
+  MPI_Comm_free(&node);
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  omp_set_num_threads(wanted > 0 ? wanted : std::max(1, cores / ranks));
+}
+
+[[noreturn]] void plot(const std::string& run)
+{
+  const char* root = std::getenv("LUFF_ROOT");
+  const std::string script = std::string(root != nullptr ? root : LUFF_SOURCE_DIR) + "/tools/plot.py";
+  MPI_Finalize();
+  execl("/usr/bin/python3", "python3", script.c_str(), run.c_str(), static_cast<char*>(nullptr));
+  std::perror("luff plot: /usr/bin/python3");
+  std::exit(1);
+}
+
+/// Runs a command; the exit status is 2 when the input is wrong and 1 when the run failed.
+template <class Command>
+int guarded(int rank, Command command)
+{
+  const auto say = [rank](const char* what) {
+    if (rank == 0)
+      std::cerr << "luff: " << what << std::endl;
+  };
+  try {
+    command();
+    return 0;
+  } catch (const luff::InputError& error) {
+    say(error.what());
+    return 2;
+  } catch (const luff::RunError& error) {
+    say(error.what());
+    return 1;
+  } catch (const std::exception& error) {
+    std::cerr << "luff: " << error.what() << std::endl;
+    MPI_Abort(MPI_COMM_WORLD, 1);
+    return 1;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+
+  CLI::App app{"luff: fluid-structure interaction of thin flexible shells"};
+  app.require_subcommand(1);
+  std::string file;
+  std::string out;
+  luff::config::Overrides overrides;
+  int threads = 0;
+  const auto takes_case = [&](CLI::App* command) {
+    command->add_option("case", file, "Case file (TOML)")->required();
+    command->add_option("--set", overrides.sets, "Override a key: --set time.end=2")->take_all()->expected(1);
+    command->add_option("--resolution", overrides.resolution, "Scale cell and division counts, and the step")
+        ->check(CLI::PositiveNumber);
+    return command;
+  };
+  CLI::App* run = takes_case(app.add_subcommand("run", "Run a case"));
+  run->add_option("--out", out, "Folder to write to (default: runs/<case>/<nnn>)");
+  run->add_option("--threads", threads, "Threads per rank")->check(CLI::PositiveNumber);
+  CLI::App* check = takes_case(app.add_subcommand("check", "Validate a case; print groups, size and cost"));
+  CLI::App* mesh = takes_case(app.add_subcommand("mesh", "Write grid and surfaces without running"));
+  mesh->add_option("--out", out, "Folder to write to")->required();
+  CLI::App* options = app.add_subcommand("options", "Print the reference of all keys of a case file");
+  CLI::App* pictures = app.add_subcommand("plot", "Make pictures of a run");
+  pictures->add_option("run", file, "Folder of the run")->required();
+
+  int status = 0;
+  try {
+    app.parse(argc, argv);
+    set_threads(threads);
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    status = guarded(rank, [&] {
+      using namespace luff::simulation;
+      if (run->parsed())
+        run_case(MPI_COMM_WORLD, file, overrides, {.out = out, .interrupted = [] { return interrupts > 0; }});
+      else if (check->parsed())
+        check_case(MPI_COMM_WORLD, file, overrides);
+      else if (mesh->parsed())
+        write_meshes(MPI_COMM_WORLD, file, overrides, out);
+      else if (options->parsed() && rank == 0)
+        luff::config::write_reference(std::cout, luff::config::Format::Text);
+      else if (pictures->parsed())
+        plot(file);
+    });
+  } catch (const CLI::ParseError& error) {
+    status = rank == 0 ? app.exit(error) : error.get_exit_code();
+    if (status != 0)
+      status = 2;
+  }
+  MPI_Finalize();
+  return status;
+}

@@ -47,18 +47,13 @@ void FlowSolver::start(const VectorFunction& velocity, double t_0)
 {
   step_ = {.t_old = t_0, .t_new = t_0, .dt = 1.0, .index = 0};
   const IndexBox& owned = grid_.owned();
-  for (int axis = 0; axis < 3; ++axis) {
-    const IndexBox faces = owned.faces(axis);
-    for (int k = faces.lo[2]; k < faces.hi[2]; ++k)
-      for (int j = faces.lo[1]; j < faces.hi[1]; ++j)
-        for (int i = faces.lo[0]; i < faces.hi[0]; ++i) {
-          Vec3 x = grid_.centre(i, j, k);
-          const Index3 c{i, j, k};
-          x[axis] = grid_.face(axis, c[axis]);
-          U_[axis](i, j, k) = grid_.area(axis, i, j, k) * velocity.value(x, t_0)[axis];
-        }
-  }
-  for_each_cell(owned, [u = views(u_), this, &velocity, t_0](int i, int j, int k) {
+  for (int axis = 0; axis < 3; ++axis)
+    for_each_cell_in_order(owned.faces(axis), [U = U_[axis].view(), this, axis, &velocity, t_0](int i, int j, int k) {
+      Vec3 x = grid_.centre(i, j, k);
+      x[axis] = grid_.face(axis, Index3{i, j, k}[axis]);
+      U(i, j, k) = grid_.area(axis, i, j, k) * velocity.value(x, t_0)[axis];
+    });
+  for_each_cell_in_order(owned, [u = views(u_), this, &velocity, t_0](int i, int j, int k) {
     const Vec3 v = velocity.value(grid_.centre(i, j, k), t_0);
     for (int d = 0; d < 3; ++d)
       u[d](i, j, k) = v[d];
@@ -83,12 +78,7 @@ void FlowSolver::begin_step(const TimeStep& step, const immersed::SheetMotion& p
   sheet_vertices_ = predicted.position.size();
   boundary_.evaluate_at(step.t_old);
   const double inflow = boundary_.largest_speed();
-  links_.freeze(predicted, step.dt, inflow > 0.0 ? inflow : largest_speed(), views(std::as_const(state_.U)));
-  std::vector<poisson::FaceIndex> blocked;
-  blocked.reserve(links_.faces().size());
-  for (const immersed::CutFace& face : links_.faces())
-    blocked.push_back({face.axis, face.cell});
-  pressure_->set_blocked(blocked);
+  find_cut_links(predicted, inflow > 0.0 ? inflow : largest_speed());
 
   double sheet_speed = 0.0;
   for (const Vec3& v : predicted.velocity)
@@ -137,6 +127,20 @@ void FlowSolver::accept()
   ++state_.steps;
 }
 
+void FlowSolver::find_cut_links(const immersed::SheetMotion& predicted, double speed)
+{
+  {
+    const auto timer = profile_.time(Phase::Search);
+    links_.freeze(predicted, step_.dt, speed, views(std::as_const(state_.U)));
+  }
+  const auto timer = profile_.time(Phase::Pressure);
+  std::vector<poisson::FaceIndex> blocked;
+  blocked.reserve(links_.faces().size());
+  for (const immersed::CutFace& face : links_.faces())
+    blocked.push_back({face.axis, face.cell});
+  pressure_->set_blocked(blocked);
+}
+
 /// du <- du + dt (gamma N(u) + zeta N_old), in every cell; the wall terms of cut cells follow in bind_to_walls().
 void FlowSolver::advance_stage(int stage)
 {
@@ -146,8 +150,11 @@ void FlowSolver::advance_stage(int stage)
   // Cut cells are computed first, from the increments and rates that the sweep over all cells overwrites.
   replace_rates_of_cut_cells(stage, weights);
   const Vec3 force = options_.acceleration.constant ? options_.acceleration.value(Vec3::Zero(), 0.0) : Vec3::Zero();
-  operators::advance_momentum(grid_, views(std::as_const(u_)), views(std::as_const(U_)), options_.viscosity, force,
-                              weights, views(rate_), views(increment_));
+  {
+    const auto timer = profile_.time(Phase::Momentum);
+    operators::advance_momentum(grid_, views(std::as_const(u_)), views(std::as_const(U_)), options_.viscosity, force,
+                                weights, views(rate_), views(increment_));
+  }
   if (!options_.acceleration.constant)
     add_varying_force(weights, step_.t_old + stage_start_[stage] * step_.dt);
   for (std::size_t n = 0; n < links_.cells().size(); ++n)
@@ -157,18 +164,18 @@ void FlowSolver::advance_stage(int stage)
 
 void FlowSolver::replace_rates_of_cut_cells(int stage, const operators::StageWeights& weights)
 {
+  const auto timer = profile_.time(Phase::CutCells);
   const std::vector<immersed::CutCell>& cells = links_.cells();
   terms_.resize(cells.size());
   explicit_increment_.resize(cells.size());
-  const bool constant = options_.acceleration.constant;
-  const double t = step_.t_old + stage_start_[stage] * step_.dt;
 #pragma omp parallel for schedule(static)
-  for (std::size_t n = 0; n < cells.size(); ++n) {
-    const Index3& c = cells[n].cell;
+  for (std::size_t n = 0; n < cells.size(); ++n)
     terms_[n] = immersed::momentum_terms(grid_, links_, cells[n], views(std::as_const(u_)), options_.viscosity,
                                          {stage_start_[stage]}, {stage_end_[stage]});
-    const Vec3 x = constant ? Vec3(Vec3::Zero()) : grid_.centre(c[0], c[1], c[2]);
-    terms_[n].explicit_rate += options_.acceleration.value(x, t);
+  const double t = step_.t_old + stage_start_[stage] * step_.dt;
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    const Index3& c = cells[n].cell;
+    terms_[n].explicit_rate += options_.acceleration.value(grid_.centre(c[0], c[1], c[2]), t);
     for (int d = 0; d < 3; ++d)
       explicit_increment_[n][d] = increment_[d].view()(c) + weights.new_rate * terms_[n].explicit_rate[d] +
                                   weights.old_rate * rate_[d].view()(c);
@@ -177,18 +184,20 @@ void FlowSolver::replace_rates_of_cut_cells(int stage, const operators::StageWei
 
 void FlowSolver::add_varying_force(const operators::StageWeights& weights, double t)
 {
-  for_each_cell(grid_.owned(), [this, &weights, t, N = views(rate_), du = views(increment_)](int i, int j, int k) {
-    const Vec3 f = options_.acceleration.value(grid_.centre(i, j, k), t);
-    for (int d = 0; d < 3; ++d) {
-      N[d](i, j, k) += f[d];
-      du[d](i, j, k) += weights.new_rate * f[d];
-    }
-  });
+  for_each_cell_in_order(grid_.owned(),
+                         [this, &weights, t, N = views(rate_), du = views(increment_)](int i, int j, int k) {
+                           const Vec3 f = options_.acceleration.value(grid_.centre(i, j, k), t);
+                           for (int d = 0; d < 3; ++d) {
+                             N[d](i, j, k) += f[d];
+                             du[d](i, j, k) += weights.new_rate * f[d];
+                           }
+                         });
 }
 
 /// u* = [u^n + du + delta dt sum v_k u_b - c dt G p]/(1 + delta dt sum v_k) in cut cells, and du from it.
 void FlowSolver::bind_to_walls(int stage, bool current_velocity)
 {
+  const auto timer = profile_.time(Phase::CutCells);
   const double implicit = delta_[stage] * step_.dt;
   const double k = stage_end_[stage] * step_.dt;
   const std::vector<immersed::CutCell>& cells = links_.cells();
@@ -210,6 +219,7 @@ void FlowSolver::bind_to_walls(int stage, bool current_velocity)
 /// U* of a stage on all faces.
 void FlowSolver::compute_fluxes(const StageTime& time)
 {
+  const auto timer = profile_.time(Phase::Momentum);
   halo_.exchange(views(increment_));
   operators::interpolate_to_faces(grid_, views(std::as_const(state_.U)), views(std::as_const(increment_)), views(U_));
   boundary_.evaluate_at(step_.t_old + time.fraction * step_.dt);
@@ -220,6 +230,7 @@ void FlowSolver::compute_fluxes(const StageTime& time)
 /// Stage 1: U^1 = U* - c dt G p^n.  Wray's second weight of stage 1 is zero, so its O(dt^2) error does not matter.
 void FlowSolver::predict_with_old_pressure(const StageTime& time)
 {
+  const auto timer = profile_.time(Phase::Momentum);
   const double k = time.fraction * step_.dt;
   halo_.exchange(views(increment_));
   operators::interpolate_to_faces(grid_, views(std::as_const(state_.U)), views(std::as_const(increment_)), views(U_));
@@ -232,6 +243,7 @@ void FlowSolver::predict_with_old_pressure(const StageTime& time)
 
 poisson::Report FlowSolver::project_stage(double dt, double reduction)
 {
+  const auto timer = profile_.time(Phase::Pressure);
   if (speed_ == 0.0)  // at rest until now: whatever the forces of this stage have set in motion
     speed_ = largest_flux_velocity();
   const poisson::Report report = pressure_->project(views(U_), p_.view(), dt,
@@ -253,6 +265,7 @@ poisson::Report FlowSolver::project_stage(double dt, double reduction)
 
 void FlowSolver::recover(const StageTime& time)
 {
+  const auto timer = profile_.time(Phase::Momentum);
   operators::recover_velocity(grid_, views(std::as_const(U_)), views(u_));
   immersed::recover_velocity(grid_, links_, views(std::as_const(U_)), time, views(u_));
 }
@@ -260,6 +273,7 @@ void FlowSolver::recover(const StageTime& time)
 /// p <- p^n; in cells that changed sides, the mean over neighbours on the new side.
 void FlowSolver::repair_pressure()
 {
+  const auto timer = profile_.time(Phase::CutCells);
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   p_ = state_.p;
   const auto p = p_.view();
@@ -293,6 +307,7 @@ void FlowSolver::repair_pressure()
 /// before two half levels are known.
 void FlowSolver::update_load_pressure()
 {
+  const auto timer = profile_.time(Phase::Loads);
   const double w = state_.steps > 1 ? 0.5 : 0.0;
   const auto p_load = p_load_.view();
   for_each_cell(grid_.owned(), [p_load, w, p = p_.view(), p_old = state_.p.view()] LUFF_KERNEL(int i, int j, int k) {
@@ -311,6 +326,7 @@ immersed::LoadFields FlowSolver::load_fields() const
 
 immersed::SheetLoads FlowSolver::loads() const
 {
+  const auto timer = profile_.time(Phase::Loads);
   return immersed::sheet_loads(grid_, links_, load_fields(), sheet_vertices_);
 }
 
@@ -344,13 +360,6 @@ void FlowSolver::fill_halos()
 double FlowSolver::convective_rate() const
 {
   return operators::convective_rate(grid_, views(state_.U));
-}
-
-double FlowSolver::stable_step() const
-{
-  const double convective = convective_limit / std::max(convective_rate(), std::numeric_limits<double>::min());
-  const double diffusive = diffusive_limit / std::max(diffusive_rate(), std::numeric_limits<double>::min());
-  return std::min(convective, diffusive);
 }
 
 }  // namespace luff::fluid

@@ -21,6 +21,7 @@
 #include <span>
 #include <vector>
 
+#include "core/profile.hpp"
 #include "core/time_step.hpp"
 #include "fluid/boundary.hpp"
 #include "immersed/cut_cells.hpp"
@@ -81,6 +82,8 @@ class FlowSolver {
   [[nodiscard]] const immersed::CutLinks& links() const { return links_; }
   [[nodiscard]] const grid::Grid& grid() const { return grid_; }
   [[nodiscard]] const FlowOptions& options() const { return options_; }
+  /// Time spent since the caller last reset it.
+  [[nodiscard]] Profile& profile() const { return profile_; }
   /// Halos of velocity and pressure of the accepted state, as output and probes need them.
   void fill_halos();
 
@@ -88,10 +91,9 @@ class FlowSolver {
   [[nodiscard]] double convective_rate() const;
   /// nu sum_d 1/h_d^2 [1/T].
   [[nodiscard]] double diffusive_rate() const { return options_.viscosity * operators::diffusive_rate(grid_); }
-  /// Largest step within the recommended limits.
-  [[nodiscard]] double stable_step() const;
 
  private:
+  void find_cut_links(const immersed::SheetMotion& predicted, double speed);
   void advance_stage(int stage);
   void add_varying_force(const operators::StageWeights& weights, double t);
   void replace_rates_of_cut_cells(int stage, const operators::StageWeights& weights);
@@ -113,6 +115,7 @@ class FlowSolver {
   HaloExchange halo_;
   immersed::CutLinks links_;
   TimeStep step_;
+  mutable Profile profile_;
   std::size_t sheet_vertices_ = 0;
   double speed_ = 0.0;  ///< scale of the velocity in this step [L/T]
 

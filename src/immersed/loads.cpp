@@ -74,9 +74,13 @@ void for_each_hit_side(const grid::Grid& grid, const CutLinks& links, const Load
     }
 }
 
+/// Summed once and sent to all, so that every rank holds the same bits.
 void sum_over_ranks(const grid::Grid& grid, double* values, std::size_t count)
 {
-  MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(count), MPI_DOUBLE, MPI_SUM, grid.ranks().comm());
+  const int n = static_cast<int>(count);
+  const bool root = grid.ranks().rank() == 0;
+  MPI_Reduce(root ? MPI_IN_PLACE : values, values, n, MPI_DOUBLE, MPI_SUM, 0, grid.ranks().comm());
+  MPI_Bcast(values, n, MPI_DOUBLE, 0, grid.ranks().comm());
 }
 
 /// Area-weighted sums over the hits of one side of a triangle.

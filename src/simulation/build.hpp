@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the options of a case to the objects that a run needs.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <mpi.h>
+
+#include "config/case.hpp"
+#include "coupling/acceleration.hpp"
+#include "simulation/simulation.hpp"
+
+namespace luff::simulation {
+
+/// Everything that can be wrong with a case's meshes, supports, grid and boundary is found here, before anything is
+/// written.  All throw InputError.
+
+[[nodiscard]] surface::TriangleMesh build_mesh(const config::MeshOptions& mesh,
+                                               const config::PlacementOptions& placement, const std::string& owner);
+[[nodiscard]] ShellPart build_shell(const config::ShellOptions& options, const config::StructureOptions& structure);
+[[nodiscard]] std::unique_ptr<shell::Shell> build_shell_alone(const config::ShellOptions& options);
+[[nodiscard]] std::vector<shell::Load> build_loads(const config::ShellOptions& options, const shell::Shell& shell);
+[[nodiscard]] std::unique_ptr<Structure> build_structure(const config::Case& options);
+
+[[nodiscard]] std::array<std::vector<double>, 3> build_coordinates(const config::GridOptions& options);
+[[nodiscard]] fluid::Boundaries build_boundaries(const config::BoundaryOptions& options);
+/// Refuses sheets that leave the domain or touch sides other than symmetry, slip and periodic ones.
+void check_sheets_inside(const config::Case& options, const Structure& structure);
+/// Collective.
+[[nodiscard]] std::unique_ptr<Surroundings> build_surroundings(MPI_Comm comm, const config::Case& options);
+
+[[nodiscard]] coupling::AccelerationOptions build_acceleration(const config::CouplingOptions& options);
+[[nodiscard]] CouplingPolicy build_policy(const config::CouplingOptions& options);
+/// The whole run.  Collective.
+[[nodiscard]] std::unique_ptr<Simulation> build_simulation(MPI_Comm comm, const config::Case& options);
+
+}  // namespace luff::simulation

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "core/error.hpp"
+#include "simulation/build.hpp"
+#include "surface/generators.hpp"
+#include "surface/readers.hpp"
+#include "surface/selection.hpp"
+#include "surface/validation.hpp"
+
+namespace luff::simulation {
+
+namespace {
+
+surface::Pattern pattern_of(config::MeshPattern pattern)
+{
+  switch (pattern) {
+    case config::MeshPattern::Alternating:
+      return surface::Pattern::Alternating;
+    case config::MeshPattern::Irregular:
+      return surface::Pattern::Irregular;
+    case config::MeshPattern::Diagonal:
+      break;
+  }
+  return surface::Pattern::Diagonal;
+}
+
+surface::Where where_of(const config::WhereOptions& where)
+{
+  if (where.edge)
+    return surface::EdgeWhere{(*where.edge)[0], (*where.edge)[1]};
+  if (where.box)
+    return surface::BoxWhere{(*where.box)[0], (*where.box)[1]};
+  if (where.plane)
+    return surface::PlaneWhere{where.plane->point, where.plane->normal};
+  return surface::PointWhere{where.point.value()};
+}
+
+shell::Properties properties_of(const config::ShellOptions& options)
+{
+  return {.thickness = options.thickness,
+          .density = options.density,
+          .young = options.material.young,
+          .poisson = options.material.poisson,
+          .damping_mass = options.damping.mass,
+          .damping_stiffness = options.damping.stiffness,
+          .gravity = options.gravity};
+}
+
+shell::Support support_of(const config::SupportOptions& options, const surface::TriangleMesh& mesh,
+                          const std::string& what)
+{
+  shell::Support support;
+  support.vertices = surface::select_vertices(mesh, where_of(options.where), what);
+  if (options.fixed) {
+    support.kind = shell::SupportKind::Fixed;
+    support.components = {false, false, false};
+    for (const config::Component c : *options.fixed)
+      support.components[static_cast<int>(c)] = true;
+    return support;
+  }
+  switch (options.type.value()) {
+    case config::SupportType::Clamped:
+      support.kind = shell::SupportKind::Clamped;
+      break;
+    case config::SupportType::Hinged:
+      support.kind = shell::SupportKind::Hinged;
+      break;
+    case config::SupportType::Symmetry:
+      support.kind = shell::SupportKind::Symmetry;
+      break;
+  }
+  return support;
+}
+
+shell::Load load_of(const config::LoadOptions& options, const surface::TriangleMesh& mesh, const std::string& what)
+{
+  const std::vector<int> vertices = surface::select_vertices(mesh, where_of(options.where), what);
+  if (options.force) {
+    // The file gives the total force; a PointForce shares what its function returns among the vertices.
+    return shell::PointForce{vertices, [f = *options.force](const Vec3& x, double t) { return f.evaluate(x, t); }};
+  }
+  const std::vector<int> triangles = shell::triangles_of(mesh, vertices);
+  if (triangles.empty())
+    fail_input("{}: no triangle lies wholly in the selection; select more, or give a force", what);
+  if (options.pressure)
+    return shell::Pressure{triangles, [p = *options.pressure](const Vec3& x, double t) { return p.evaluate(x, t); }};
+  return shell::Traction{triangles,
+                         [s = options.traction.value()](const Vec3& x, double t) { return s.evaluate(x, t); }};
+}
+
+/// x = R(t) (x_0 - about) + about + translation(t)
+Vec3 moved(const config::MotionOptions& motion, const Vec3& x_0, double t)
+{
+  Vec3 x = x_0;
+  if (motion.rotation) {
+    const double angle = motion.rotation->angle.evaluate(x_0, t) * std::numbers::pi / 180.0;
+    x = Eigen::AngleAxisd(angle, motion.rotation->axis.normalized()) * (x_0 - motion.rotation->about) +
+        motion.rotation->about;
+  }
+  return x + motion.translation.evaluate(x_0, t);
+}
+
+RigidSheet build_rigid(const config::BodyOptions& options)
+{
+  RigidSheet sheet{.name = options.name,
+                   .mesh = build_mesh(options.mesh, options.placement, fmt::format("body '{}'", options.name)),
+                   .position = {},
+                   .moves = options.motion.type == config::MotionType::Prescribed};
+  sheet.position = [motion = options.motion](const Vec3& x_0, double t) { return moved(motion, x_0, t); };
+  return sheet;
+}
+
+}  // namespace
+
+surface::TriangleMesh build_mesh(const config::MeshOptions& mesh, const config::PlacementOptions& placement,
+                                 const std::string& owner)
+{
+  surface::TriangleMesh result;
+  if (mesh.file)
+    result = surface::read_mesh(*mesh.file);
+  else
+    result = surface::rectangle({.origin = mesh.origin,
+                                 .a = mesh.a,
+                                 .b = mesh.b,
+                                 .divisions = mesh.divisions,
+                                 .pattern = pattern_of(mesh.pattern)});
+  surface::scale(result, Vec3::Constant(placement.scale));
+  if (placement.rotate)
+    surface::rotate(result, placement.rotate->axis, placement.rotate->angle, placement.rotate->about);
+  surface::translate(result, placement.translate);
+  surface::validate(result, owner);
+  return result;
+}
+
+std::unique_ptr<shell::Shell> build_shell_alone(const config::ShellOptions& options)
+{
+  const std::string owner = fmt::format("shell '{}'", options.name);
+  surface::TriangleMesh mesh = build_mesh(options.mesh, options.placement, owner);
+  std::vector<shell::Support> supports;
+  for (std::size_t n = 0; n < options.supports.size(); ++n)
+    supports.push_back(support_of(options.supports[n], mesh, fmt::format("{}, support {}", owner, n + 1)));
+  return std::make_unique<shell::Shell>(std::move(mesh), properties_of(options), std::move(supports), options.name);
+}
+
+std::vector<shell::Load> build_loads(const config::ShellOptions& options, const shell::Shell& shell)
+{
+  std::vector<shell::Load> loads;
+  for (std::size_t n = 0; n < options.loads.size(); ++n)
+    loads.push_back(
+        load_of(options.loads[n], shell.reference(), fmt::format("shell '{}', load {}", options.name, n + 1)));
+  return loads;
+}
+
+ShellPart build_shell(const config::ShellOptions& options, const config::StructureOptions& structure)
+{
+  ShellPart part;
+  part.shell = build_shell_alone(options);
+  shell::DynamicsOptions dynamics;
+  if (structure.solver == config::StructureSolver::Cg)
+    dynamics.linear_solver = shell::LinearSolverKind::ConjugateGradients;
+  part.dynamics = std::make_unique<shell::Dynamics>(*part.shell, build_loads(options, *part.shell), dynamics);
+  return part;
+}
+
+std::unique_ptr<Structure> build_structure(const config::Case& options)
+{
+  std::vector<ShellPart> shells;
+  for (const config::ShellOptions& shell : options.shells)
+    shells.push_back(build_shell(shell, options.structure));
+  std::vector<RigidSheet> rigid;
+  for (const config::BodyOptions& body : options.bodies)
+    rigid.push_back(build_rigid(body));
+  return std::make_unique<Structure>(std::move(shells), std::move(rigid));
+}
+
+}  // namespace luff::simulation

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The commands of the program.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include <mpi.h>
+
+#include "config/case.hpp"
+
+namespace luff::simulation {
+
+/// What `run` takes from the command line besides the case.
+struct RunOptions {
+  std::filesystem::path out;                                 ///< empty: runs/<case>/<nnn>
+  std::function<bool()> interrupted = [] { return false; };  ///< whether this rank was asked to end
+};
+
+/// Runs a case and writes its folder.  Collective.  Throws InputError before anything is written, RunError when the run
+/// fails after writing the summary.
+void run_case(MPI_Comm comm, const std::filesystem::path& file, const config::Overrides& overrides,
+              const RunOptions& options);
+/// Validates a case and prints what was understood.  Collective.
+void check_case(MPI_Comm comm, const std::filesystem::path& file, const config::Overrides& overrides);
+/// Writes the grid and the surfaces of a case into a new folder, without running it.  Collective.
+void write_meshes(MPI_Comm comm, const std::filesystem::path& file, const config::Overrides& overrides,
+                  const std::filesystem::path& out);
+
+}  // namespace luff::simulation

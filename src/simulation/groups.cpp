@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/groups.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "simulation/build.hpp"
+
+namespace luff::simulation {
+
+namespace {
+
+/// Fastest of the initial velocity and of what the sides prescribe, at t = 0 in the middle of the domain.
+double reference_speed(const config::Case& options)
+{
+  Vec3 middle;
+  for (int a = 0; a < 3; ++a)
+    middle[a] = 0.5 * (options.grid.axes[a].from + options.grid.axes[a].to);
+  double speed = options.fluid->initial.velocity.evaluate(middle, 0.0).norm();
+  for (const config::SideOptions& side : options.boundary.sides)
+    if (side.type == config::SideType::Velocity || side.type == config::SideType::Wall)
+      speed = std::max(speed, side.value.evaluate(middle, 0.0).norm());
+  return speed;
+}
+
+double sheet_length(const Structure& structure)
+{
+  if (structure.sheets().empty())
+    return 0.0;
+  const SheetRange& sheet = structure.sheets().front();
+  const std::vector<Vec3> positions = structure.accepted_positions(0.0);
+  const surface::BoundingBox box =
+      surface::bounding_box(std::span(positions).subspan(sheet.first_vertex, sheet.vertices));
+  return box.extent().maxCoeff();
+}
+
+struct Spacing {
+  Vec3 finest;
+  double cells = 1.0;
+};
+
+Spacing spacing_of(const std::array<std::vector<double>, 3>& faces)
+{
+  Spacing spacing;
+  for (int a = 0; a < 3; ++a) {
+    double finest = faces[a].back() - faces[a].front();
+    for (std::size_t i = 1; i < faces[a].size(); ++i)
+      finest = std::min(finest, faces[a][i] - faces[a][i - 1]);
+    spacing.finest[a] = finest;
+    spacing.cells *= static_cast<double>(faces[a].size() - 1);
+  }
+  return spacing;
+}
+
+void describe_flow(const config::Case& options, const Structure& structure, std::vector<std::string>& lines)
+{
+  const Spacing spacing = spacing_of(build_coordinates(options.grid));
+  const double speed = reference_speed(options);
+  const double length = sheet_length(structure);
+  const double viscosity = options.fluid->viscosity / options.fluid->density;
+  const Vec3& h = spacing.finest;
+  lines.push_back(fmt::format("grid {} x {} x {} = {:.0f} cells, finest spacing {:.4g} x {:.4g} x {:.4g}",
+                              options.grid.axes[0].cells, options.grid.axes[1].cells, options.grid.axes[2].cells,
+                              spacing.cells, h[0], h[1], h[2]));
+  // 24 doubles per cell for the flow, as much again at most for the pressure's multigrid.
+  lines.push_back(fmt::format("memory about {:.0f} MB for the flow", spacing.cells * 400.0 / 1e6));
+  if (length > 0.0 && speed > 0.0) {
+    if (viscosity > 0.0)
+      lines.push_back(fmt::format("Reynolds number U L/nu = {:.4g}  (U = {:.4g}, L = {:.4g}, nu = {:.4g})",
+                                  speed * length / viscosity, speed, length, viscosity));
+    lines.push_back(fmt::format("cells per length L/h = {:.1f}", length / h.minCoeff()));
+  }
+  const double dt = options.time.step;
+  lines.push_back(
+      fmt::format("CFL number of the free stream at most {:.2f} (recommended {}), diffusion number {:.3f} "
+                  "(recommended {})",
+                  speed * dt / h.minCoeff(), fluid::convective_limit,
+                  viscosity * dt * h.cwiseAbs2().cwiseInverse().sum(), fluid::diffusive_limit));
+  const double steps = std::ceil(options.time.end / dt);
+  // Measured on one core of 2023: benchmarks/README.md.
+  const double microseconds = options.shells.empty() ? 0.7 : 1.5;
+  lines.push_back(fmt::format("about {:.0f} steps; near {:.1f} minutes on one core", steps,
+                              steps * spacing.cells * microseconds * 1e-6 / 60.0));
+}
+
+void describe_shell(const config::Case& options, const config::ShellOptions& shell, double length,
+                    std::vector<std::string>& lines)
+{
+  const double h = shell.thickness;
+  const double stiffness =
+      shell.material.young * h * h * h / (12.0 * (1.0 - shell.material.poisson * shell.material.poisson));
+  if (!options.fluid) {
+    lines.push_back(fmt::format("shell '{}': bending stiffness E h^3/(12 (1 - nu^2)) = {:.4g}, mass per area {:.4g}",
+                                shell.name, stiffness, shell.density * h));
+    return;
+  }
+  const double speed = reference_speed(options);
+  const double rho = options.fluid->density;
+  const double mass_ratio = shell.density * h / (rho * length);
+  lines.push_back(fmt::format("shell '{}': mass ratio rho_s h/(rho_f L) = {:.4g}", shell.name, mass_ratio));
+  if (speed > 0.0)
+    lines.push_back(fmt::format("shell '{}': bending stiffness K_B = E h^3/(12 (1 - nu^2) rho_f U^2 L^3) = {:.4g}",
+                                shell.name, stiffness / (rho * speed * speed * length * length * length)));
+  // Loose coupling blew up at M <= 1 within twenty steps (docs/numerics/coupling.md).
+  if (options.coupling.scheme == config::CouplingScheme::Loose && mass_ratio < 10.0)
+    lines.push_back(
+        fmt::format("WARNING: loose coupling is unstable for shells this light (it needs a mass ratio of about "
+                    "10 or more); set coupling.scheme = \"strong\""));
+}
+
+}  // namespace
+
+std::vector<std::string> describe_groups(const config::Case& options, const Structure& structure)
+{
+  std::vector<std::string> lines;
+  if (options.fluid)
+    describe_flow(options, structure, lines);
+  for (const config::ShellOptions& shell : options.shells)
+    describe_shell(options, shell, sheet_length(structure), lines);
+  for (const SheetRange& sheet : structure.sheets())
+    lines.push_back(fmt::format("{} '{}': {} vertices, {} triangles", sheet.deforms ? "shell" : "body", sheet.name,
+                                sheet.vertices, sheet.triangles));
+  return lines;
+}
+
+}  // namespace luff::simulation

@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "output/summary.hpp"
+#include "simulation/flow_fields.hpp"
+
+namespace luff::simulation {
+
+namespace {
+
+double seconds_now()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void append(std::vector<double>& row, const Vec3& v)
+{
+  row.insert(row.end(), v.data(), v.data() + 3);
+}
+
+std::vector<output::Column> step_columns()
+{
+  std::vector<output::Column> columns{{"step", ""},
+                                      {"t", "time"},
+                                      {"dt", "time"},
+                                      {"cfl", ""},
+                                      {"pressure_iterations", ""},
+                                      {"max_divergence", ""},
+                                      {"coupling_iterations", ""},
+                                      {"coupling_residual", ""},
+                                      {"kinetic", "energy"},
+                                      {"elastic", "energy"},
+                                      {"damping_work", "energy"},
+                                      {"external_work", "energy"}};
+  for (const char* phase : phase_names)
+    columns.push_back({std::string("seconds_") + phase, "s"});
+  return columns;
+}
+
+output::NamedField field_of(const std::string& name, const std::vector<Vec3>& values, int first, int count)
+{
+  std::vector<double> flat;
+  flat.reserve(3 * count);
+  for (int n = first; n < first + count; ++n)
+    append(flat, values[n]);
+  return {name, 3, std::move(flat)};
+}
+
+}  // namespace
+
+Recorder::Recorder(const output::RunFolder& folder, std::shared_ptr<spdlog::logger> log, const config::Case& options,
+                   Simulation& simulation, std::function<bool()> interrupted)
+    : folder_(folder),
+      log_(std::move(log)),
+      options_(options),
+      simulation_(simulation),
+      interrupted_(std::move(interrupted)),
+      progress_(std::cout,
+                output::progress_on_standard_output(
+                    options.time.end,
+                    options.fluid ? double(simulation.surroundings().flow()->grid().ranks().domain().volume()) : 0.0)),
+      fields_due_(options.output.fields ? std::optional(options.output.fields->every) : std::nullopt),
+      shells_due_(options.output.shells ? std::optional(options.output.shells->every) : std::nullopt)
+{
+  open_tables();
+  for (const config::ProbeOptions& probe : options_.output.probes)
+    open_probe(probe);
+  write_snapshots(0.0, options_.time.step, /*last=*/false);
+  started_ = last_step_ended_ = seconds_now();
+  simulation_.profile().reset();
+  if (auto* flow = simulation_.surroundings().flow())
+    flow->profile().reset();
+}
+
+void Recorder::open_tables()
+{
+  steps_.emplace(folder_, "steps.csv", step_columns());
+  if (options_.fluid && options_.output.fields)
+    fields_.emplace(folder_);
+  for (const SheetRange& sheet : simulation_.structure().sheets()) {
+    surfaces_.emplace_back(folder_, (sheet.deforms ? "shell-" : "body-") + sheet.name);
+    if (!options_.fluid)
+      continue;
+    std::vector<output::Column> columns{{"t", "time"}};
+    for (const output::Column& c : output::vector_columns("force", "force"))
+      columns.push_back(c);
+    forces_.emplace_back(folder_, "forces-" + sheet.name + ".csv", columns);
+  }
+}
+
+void Recorder::open_probe(const config::ProbeOptions& options)
+{
+  Probe probe{.name = options.name, .point = options.point};
+  std::vector<output::Column> columns{{"t", "time"}};
+  const auto add = [&columns](const std::string& name, const std::string& unit) {
+    for (const output::Column& c : output::vector_columns(name, unit))
+      columns.push_back(c);
+  };
+  if (options.shell) {
+    for (const SheetRange& sheet : simulation_.structure().sheets())
+      if (sheet.name == *options.shell) {
+        const auto& vertices = simulation_.structure().shell(sheet.part).shell->reference().vertices;
+        const auto nearest = std::min_element(vertices.begin(), vertices.end(), [&](const Vec3& a, const Vec3& b) {
+          return (a - options.point).squaredNorm() < (b - options.point).squaredNorm();
+        });
+        probe.vertex = sheet.first_vertex + static_cast<int>(nearest - vertices.begin());
+        probe.point = *nearest;
+      }
+    add("displacement", "length");
+    add("velocity", "velocity");
+  } else {
+    add("velocity", "velocity");
+    columns.push_back({"pressure", "pressure"});
+  }
+  probe.csv = std::make_unique<output::CsvWriter>(folder_, "probe-" + probe.name + ".csv", columns);
+  probes_.push_back(std::move(probe));
+}
+
+bool Recorder::record(const StepRecord& record)
+{
+  const double now = seconds_now();
+  seconds_stepping_ += now - last_step_ended_;
+  const double t = record.step.t_new;
+  if (auto* flow = simulation_.surroundings().flow())
+    flow->fill_halos();
+  largest_divergence_ = std::max(largest_divergence_, record.flow.divergence);
+  largest_cfl_ = std::max(largest_cfl_, record.rates.convective * record.step.dt);
+  coupling_iterations_ += record.coupling.iterations;
+  most_coupling_iterations_ = std::max(most_coupling_iterations_, record.coupling.iterations);
+  pressure_iterations_ += record.flow.pressure_iterations;
+  halvings_ += record.halvings;
+  warn_about_limits(record);
+  {
+    const auto timer = simulation_.profile().time(Phase::Output);
+    write_forces(t);
+    write_probes(t, record.step.dt);
+    write_snapshots(t, record.step.dt, /*last=*/false);
+  }
+  write_steps(record);
+  show_progress(record);
+  last_step_ended_ = seconds_now();
+  return !(folder_.stop_requested() || interrupted_());
+}
+
+void Recorder::write_steps(const StepRecord& record)
+{
+  const shell::EnergyLedger energy = simulation_.structure().energy();
+  const bool flows = options_.fluid.has_value();
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> row{double(record.step.index),
+                          record.step.t_new,
+                          record.step.dt,
+                          flows ? record.rates.convective * record.step.dt : nothing,
+                          flows ? double(record.flow.pressure_iterations) : nothing,
+                          flows ? record.flow.divergence : nothing,
+                          double(record.coupling.iterations),
+                          record.coupling.residual,
+                          energy.kinetic,
+                          energy.elastic,
+                          energy.damping_work,
+                          energy.external_work};
+  auto* flow = simulation_.surroundings().flow();
+  for (std::size_t n = 0; n < phase_names.size(); ++n) {
+    const double seconds = simulation_.profile().all()[n] + (flow ? flow->profile().all()[n] : 0.0);
+    row.push_back(seconds);
+    profile_.add(static_cast<Phase>(n), seconds);
+  }
+  simulation_.profile().reset();
+  if (flow)
+    flow->profile().reset();
+  steps_->row(row);
+}
+
+void Recorder::warn_about_limits(const StepRecord& record)
+{
+  const double cfl = record.rates.convective * record.step.dt;
+  const double diffusion = record.rates.diffusive * record.step.dt;
+  if (cfl <= fluid::convective_limit && diffusion <= fluid::diffusive_limit)
+    return;
+  if (steps_beyond_limits_++ == 0)
+    log_->warn(
+        "step {}, t = {:.6g}: CFL {:.2f} (recommended at most {}), diffusion number {:.2f} (at most {}): the run may "
+        "become unstable; shorten time.step or set time.cfl",
+        record.step.index, record.step.t_new, cfl, fluid::convective_limit, diffusion, fluid::diffusive_limit);
+}
+
+void Recorder::write_forces(double t)
+{
+  const auto& sheets = simulation_.structure().sheets();
+  for (std::size_t s = 0; s < forces_.size(); ++s) {
+    Vec3 sum = Vec3::Zero();
+    for (int v = 0; v < sheets[s].vertices; ++v)
+      sum += simulation_.structure().force()[sheets[s].first_vertex + v];
+    std::vector<double> row{t};
+    append(row, sum);
+    forces_[s].row(row);
+  }
+}
+
+void Recorder::write_probes(double t, double dt)
+{
+  if (probes_.empty())
+    return;
+  const std::vector<Vec3> positions = simulation_.structure().accepted_positions(t);
+  const std::vector<Vec3> velocities = simulation_.structure().accepted_velocities(t, dt);
+  for (Probe& probe : probes_) {
+    std::vector<double> row{t};
+    Vec3 value;
+    if (probe.vertex >= 0) {
+      value = positions[probe.vertex] - probe.point;
+      append(row, value);
+      append(row, velocities[probe.vertex]);
+    } else {
+      const PointSample here = sample(*simulation_.surroundings().flow(), probe.point);
+      value = here.velocity;
+      append(row, value);
+      row.push_back(here.pressure);
+    }
+    probe.t.push_back(t);
+    for (int d = 0; d < 3; ++d)
+      probe.value[d].push_back(value[d]);
+    probe.csv->row(row);
+  }
+}
+
+void Recorder::write_snapshots(double t, double dt, bool last)
+{
+  if (fields_ && (fields_due_.due(t) || last)) {
+    auto* flow = simulation_.surroundings().flow();
+    flow->fill_halos();
+    fields_->write(t, flow_snapshot(*flow, options_.output.fields->what));
+  }
+  if (options_.output.shells && (shells_due_.due(t) || last))
+    write_shells(t, dt);
+}
+
+void Recorder::write_shells(double t, double dt)
+{
+  std::vector<immersed::SideTraction> tractions;
+  if (auto* flow = simulation_.surroundings().flow(); flow && flow->state().steps > 0)
+    tractions = flow->tractions();
+  const auto& sheets = simulation_.structure().sheets();
+  for (std::size_t s = 0; s < sheets.size(); ++s)
+    surfaces_[s].write(t, sheet_snapshot(sheets[s], t, dt, tractions));
+}
+
+output::SurfaceSnapshot Recorder::sheet_snapshot(const SheetRange& sheet, double t, double dt,
+                                                 const std::vector<immersed::SideTraction>& tractions) const
+{
+  const Structure& structure = simulation_.structure();
+  const std::vector<Vec3> now = structure.accepted_positions(t);
+  const surface::TriangleMesh& reference =
+      sheet.deforms ? structure.shell(sheet.part).shell->reference() : structure.rigid(sheet.part).mesh;
+  output::SurfaceSnapshot snapshot;
+  std::vector<double> displacement;
+  for (int v = 0; v < sheet.vertices; ++v) {
+    snapshot.points.push_back(now[sheet.first_vertex + v]);
+    append(displacement, now[sheet.first_vertex + v] - reference.vertices[v]);
+  }
+  snapshot.triangles = reference.triangles;
+  snapshot.point_fields.push_back({"displacement", 3, std::move(displacement)});
+  snapshot.point_fields.push_back(
+      field_of("velocity", structure.accepted_velocities(t, dt), sheet.first_vertex, sheet.vertices));
+  if (tractions.empty() && !options_.fluid)
+    return snapshot;
+  // All instants carry the same arrays, zero before the first step.
+  for (int side = 0; side < 2; ++side) {
+    const std::string suffix = side == 0 ? "_minus" : "_plus";
+    std::vector<double> pressure(sheet.triangles, 0.0);
+    std::vector<double> shear(3 * sheet.triangles, 0.0);
+    for (int e = 0; e < sheet.triangles && !tractions.empty(); ++e) {
+      const immersed::SideTraction& traction = tractions[sheet.first_triangle + e];
+      pressure[e] = traction.pressure[side];
+      for (int d = 0; d < 3; ++d)
+        shear[3 * e + d] = traction.shear[side][d];
+    }
+    snapshot.triangle_fields.push_back({"pressure" + suffix, 1, std::move(pressure)});
+    snapshot.triangle_fields.push_back({"shear" + suffix, 3, std::move(shear)});
+  }
+  return snapshot;
+}
+
+void Recorder::show_progress(const StepRecord& record)
+{
+  output::StepProgress line{.step = record.step.index, .t = record.step.t_new};
+  if (options_.fluid) {
+    line.cfl = record.rates.convective * record.step.dt;
+    line.pressure_iterations = record.flow.pressure_iterations;
+  }
+  if (!options_.shells.empty() && options_.fluid)
+    line.coupling_iterations = record.coupling.iterations;
+  if (!probes_.empty()) {
+    line.probe_name = probes_.front().name + "_y";
+    line.probe = probes_.front().value[1].back();
+  }
+  if (folder_.writes())
+    progress_.step(line);
+}
+
+/// Amplitude and frequency of every probe over the last three fifths of the run, for the component that moves most.
+void Recorder::report_oscillations(nlohmann::ordered_json& summary)
+{
+  for (const Probe& probe : probes_) {
+    if (probe.t.size() < 3)
+      continue;
+    const double to = probe.t.back();
+    int component = -1;
+    std::optional<output::Oscillation> largest;
+    for (int d = 0; d < 3; ++d)
+      if (const auto o = output::oscillation(probe.t, probe.value[d], 0.4 * to, to);
+          o && (!largest || o->peak_to_peak > largest->peak_to_peak)) {
+        largest = o;
+        component = d;
+      }
+    if (!largest) {
+      log_->info("probe '{}': no oscillation of two periods or more since t = {:.3g}", probe.name, 0.4 * to);
+      continue;
+    }
+    log_->info("probe '{}': {} oscillates with amplitude {:.4g} peak to peak, frequency {:.4g}, over {} periods",
+               probe.name, std::string(1, "xyz"[component]), largest->peak_to_peak, largest->frequency,
+               largest->periods);
+    summary["probes"][probe.name] = {{"component", std::string(1, "xyz"[component])},
+                                     {"peak_to_peak", largest->peak_to_peak},
+                                     {"frequency", largest->frequency},
+                                     {"mean", largest->mean},
+                                     {"periods", largest->periods}};
+  }
+}
+
+void Recorder::finish(Ending ending, const std::string& reason)
+{
+  if (folder_.writes())
+    progress_.finish();
+  const Clock& clock = simulation_.clock();
+  if (ending != Ending::Failed && clock.steps() > 0)
+    write_snapshots(clock.now(), options_.time.step, /*last=*/true);
+  const char* const state = ending == Ending::Finished ? "finished" : ending == Ending::Stopped ? "stopped" : "failed";
+  nlohmann::ordered_json summary{{"title", options_.title},
+                                 {"state", state},
+                                 {"steps", clock.steps()},
+                                 {"t", clock.now()},
+                                 {"seconds", seconds_now() - started_}};
+  if (!reason.empty())
+    summary["reason"] = reason;
+  const double steps = std::max(1, clock.steps());
+  if (auto* flow = simulation_.surroundings().flow()) {
+    const double cells = static_cast<double>(flow->grid().ranks().domain().volume());
+    summary["cells"] = cells;
+    summary["max_divergence"] = largest_divergence_;
+    summary["max_cfl"] = largest_cfl_;
+    summary["steps_beyond_recommended_limits"] = steps_beyond_limits_;
+    summary["mean_pressure_iterations"] = pressure_iterations_ / steps;
+    summary["microseconds_per_cell_and_step"] = 1e6 * seconds_stepping_ / (cells * steps);
+  }
+  if (!options_.shells.empty()) {
+    summary["mean_coupling_iterations"] = coupling_iterations_ / steps;
+    summary["max_coupling_iterations"] = most_coupling_iterations_;
+    summary["halved_steps"] = halvings_;
+    summary["folds_above_45_degrees"] = simulation_.structure().sharp_folds();
+  }
+  for (std::size_t n = 0; n < phase_names.size(); ++n)
+    summary["phases"][phase_names[n]] = profile_.all()[n];
+  log_->info("{} at t = {:.6g} after {} steps in {:.1f} s", state, clock.now(), clock.steps(),
+             seconds_now() - started_);
+  if (options_.fluid)
+    log_->info("largest max |div U| h/|U| of all steps: {:.1e}", largest_divergence_);
+  if (steps_beyond_limits_ > 0)
+    log_->warn("{} steps went beyond the recommended CFL or diffusion number", steps_beyond_limits_);
+  if (simulation_.structure().sharp_folds() > 0)
+    log_->warn("{} edges in all steps together folded by more than 45 degrees: refine the shell's mesh there",
+               simulation_.structure().sharp_folds());
+  report_oscillations(summary);
+  output::write_summary(folder_, summary);
+  if (ending != Ending::Failed)
+    name_files();
+}
+
+void Recorder::name_files() const
+{
+  std::string list;
+  for (const SheetRange& sheet : simulation_.structure().sheets())
+    if (options_.output.shells)
+      list += fmt::format(" {}", folder_.file((sheet.deforms ? "shell-" : "body-") + sheet.name + ".pvd").string());
+  if (fields_)
+    list += fmt::format(" {}", folder_.file("fields.pvd").string());
+  if (!list.empty())
+    log_->info("open together in ParaView:{}", list);
+  log_->info("tables: {} (steps, probes, forces); summary: {}", folder_.file("*.csv").string(),
+             folder_.file("summary.json").string());
+}
+
+}  // namespace luff::simulation

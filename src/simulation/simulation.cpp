@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/simulation.hpp"
+
+#include "core/error.hpp"
+
+namespace luff::simulation {
+
+void Simulation::run(const Observer& observe)
+{
+  bool wanted = true;
+  while (wanted && !clock_.finished()) {
+    const StepRates rates = surroundings_->step_rates();
+    const TimeStep step = clock_.next(rates);       // t^n -> t^{n+1}
+    Eigen::VectorXd d = structure_->predict(step);  // d^0
+    const coupling::FixedPointReport report = advance(step, d);
+    if (!acceptable(report)) {
+      reject(step, report);
+      continue;
+    }
+    const int halvings = clock_.rejections();
+    surroundings_->accept();
+    structure_->accept(step, d);
+    clock_.accept(step);
+    wanted = observe({step, rates, report, surroundings_->report(), halvings});
+  }
+}
+
+/// Loose coupling takes one iteration for what it is; a value that is no number is never taken.
+bool Simulation::acceptable(const coupling::FixedPointReport& report) const
+{
+  return report.converged() ||
+         (policy_.scheme == Scheme::Loose && report.outcome != coupling::FixedPointOutcome::NotFinite);
+}
+
+/// The fixed point d = S(F(d)) of one step, from the accepted states of flow and structure.
+coupling::FixedPointReport Simulation::advance(const TimeStep& step, Eigen::VectorXd& d)
+{
+  surroundings_->begin_step(step, structure_->motion(d, step));  // the geometry stays frozen at d^0
+  const coupling::InterfaceMap flow_then_structure = [&](const Eigen::VectorXd& guess) {
+    const std::vector<Vec3> force = surroundings_->loads(structure_->velocity(guess, step));  // F
+    const auto timer = profile_.time(Phase::Shell);
+    return structure_->solve(step, force, guess);  // S
+  };
+  return coupling::solve_fixed_point(flow_then_structure, d, *acceleration_, policy_.criterion,
+                                     coupling::displacement_norm(structure_->length()));
+}
+
+void Simulation::reject(const TimeStep& step, const coupling::FixedPointReport& report)
+{
+  if (clock_.rejections() >= policy_.halvings || report.outcome == coupling::FixedPointOutcome::NotFinite)
+    fail_run(
+        "step {}, t = {:.6g}: the coupling of flow and shell did not converge: residual {:.2e} after {} iterations "
+        "(tolerance {:.1e}), the step halved {} times; a smaller time.step, coupling.acceleration = \"aitken\" with a "
+        "smaller coupling.relaxation, or more coupling.max_iterations may help",
+        step.index, step.t_new, report.residual, report.iterations, policy_.criterion.tolerance, clock_.rejections());
+  clock_.reject();
+}
+
+}  // namespace luff::simulation

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Everything that moves in the flow, seen as one set of vertices: shells that the flow bends, sheets that move as
+// prescribed.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/time_step.hpp"
+#include "immersed/cut_links.hpp"
+#include "immersed/loads.hpp"
+#include "shell/dynamics.hpp"
+
+namespace luff::simulation {
+
+/// A shell and its motion.
+struct ShellPart {
+  std::unique_ptr<shell::Shell> shell;
+  std::unique_ptr<shell::Dynamics> dynamics;
+};
+
+/// A thin rigid sheet whose place is given for all times.
+struct RigidSheet {
+  std::string name;
+  surface::TriangleMesh mesh;  ///< at t = 0
+  std::function<Vec3(const Vec3& x_0, double t)> position;
+  bool moves = false;
+};
+
+/// Part of the vertices and triangles of all sheets together.
+struct SheetRange {
+  std::string name;
+  bool deforms = false;
+  int part = 0;  ///< index among the shells or the rigid sheets
+  int first_vertex = 0;
+  int vertices = 0;
+  int first_triangle = 0;
+  int triangles = 0;
+};
+
+/// Shells first, then rigid sheets.  The interface vector d holds the positions of the shells' vertices; velocities
+/// follow from it through Newmark, so that both stay consistent.
+class Structure {
+ public:
+  Structure(std::vector<ShellPart> shells, std::vector<RigidSheet> rigid);
+
+  /// d^0, extrapolated to the end of the step.
+  [[nodiscard]] Eigen::VectorXd predict(const TimeStep& step) const;
+  /// Position, velocity and acceleration of all vertices at t_new, with the shells at d.
+  [[nodiscard]] immersed::SheetMotion motion(const Eigen::VectorXd& d, const TimeStep& step) const;
+  /// Velocity of all vertices at t_new.
+  [[nodiscard]] std::vector<Vec3> velocity(const Eigen::VectorXd& d, const TimeStep& step) const;
+  /// Where the shells come to rest in the step under the forces of the flow (one per vertex of all sheets), from the
+  /// accepted state; Newton starts from d.
+  [[nodiscard]] Eigen::VectorXd solve(const TimeStep& step, std::span<const Vec3> force, const Eigen::VectorXd& d);
+  /// Commits the shells' positions d.
+  void accept(const TimeStep& step, const Eigen::VectorXd& d);
+
+  [[nodiscard]] const std::vector<SheetRange>& sheets() const { return sheets_; }
+  [[nodiscard]] const ShellPart& shell(int part) const { return shells_[part]; }
+  [[nodiscard]] const std::vector<ShellPart>& shells() const { return shells_; }
+  [[nodiscard]] const RigidSheet& rigid(int part) const { return rigid_[part]; }
+  [[nodiscard]] int vertices() const { return vertices_; }
+  [[nodiscard]] const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
+  /// Force of the flow on each vertex of all sheets in the last solve().
+  [[nodiscard]] const std::vector<Vec3>& force() const { return force_; }
+  /// Positions of all vertices at time t in the accepted state.
+  [[nodiscard]] std::vector<Vec3> accepted_positions(double t) const;
+  [[nodiscard]] std::vector<Vec3> accepted_velocities(double t, double dt) const;
+  /// Length that makes displacements relative: the largest shell's size, 1 without shells.
+  [[nodiscard]] double length() const { return length_; }
+  /// Sum over the shells.
+  [[nodiscard]] shell::EnergyLedger energy() const;
+  [[nodiscard]] long sharp_folds() const { return sharp_folds_; }
+
+ private:
+  void add_sheet(const std::string& name, bool deforms, int part, const surface::TriangleMesh& mesh);
+  [[nodiscard]] Eigen::VectorXd segment(const Eigen::VectorXd& d, std::size_t shell) const;
+
+  std::vector<ShellPart> shells_;
+  std::vector<RigidSheet> rigid_;
+  std::vector<SheetRange> sheets_;
+  std::vector<std::array<int, 3>> triangles_;
+  int vertices_ = 0;
+  Eigen::Index unknowns_ = 0;
+  double length_ = 1.0;
+  std::vector<Vec3> force_;
+  long sharp_folds_ = 0;
+};
+
+}  // namespace luff::simulation

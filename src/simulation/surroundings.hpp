@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What surrounds the structure: a flow, or nothing.
+#pragma once
+
+#include <memory>
+
+#include "fluid/flow_solver.hpp"
+#include "simulation/clock.hpp"
+#include "simulation/structure.hpp"
+
+namespace luff::simulation {
+
+/// What the flow did in the last step.
+struct FlowReport {
+  int pressure_iterations = 0;  ///< of all coupling iterations together
+  double divergence = 0.0;      ///< max |div U| h/|U|
+};
+
+/// The flow as the time loop sees it.  A structure alone is the same loop in empty surroundings.
+class Surroundings {
+ public:
+  virtual ~Surroundings() = default;
+  [[nodiscard]] virtual StepRates step_rates() const { return {}; }
+  /// What does not depend on the sheets' current velocity; freezes their geometry.
+  virtual void begin_step(const TimeStep&, const immersed::SheetMotion&) {}
+  /// Forces on the vertices when the sheets move with these velocities.
+  [[nodiscard]] virtual std::vector<Vec3> loads(std::span<const Vec3> sheet_velocity)
+  {
+    return std::vector<Vec3>(sheet_velocity.size(), Vec3::Zero());
+  }
+  virtual void accept() {}
+  [[nodiscard]] virtual FlowReport report() const { return {}; }
+  /// Null without a flow.
+  [[nodiscard]] virtual fluid::FlowSolver* flow() { return nullptr; }
+};
+
+class Flow : public Surroundings {
+ public:
+  /// Throws RunError in begin_step() when a sheet leaves the domain.
+  Flow(std::unique_ptr<grid::Grid> grid, std::unique_ptr<fluid::FlowSolver> solver)
+      : grid_(std::move(grid)), solver_(std::move(solver))
+  {
+  }
+  [[nodiscard]] StepRates step_rates() const override
+  {
+    return {solver_->convective_rate(), solver_->diffusive_rate()};
+  }
+  void begin_step(const TimeStep& step, const immersed::SheetMotion& predicted) override;
+  [[nodiscard]] std::vector<Vec3> loads(std::span<const Vec3> sheet_velocity) override;
+  void accept() override { solver_->accept(); }
+  [[nodiscard]] FlowReport report() const override { return report_; }
+  [[nodiscard]] fluid::FlowSolver* flow() override { return solver_.get(); }
+
+ private:
+  std::unique_ptr<grid::Grid> grid_;
+  std::unique_ptr<fluid::FlowSolver> solver_;
+  FlowReport report_;
+};
+
+}  // namespace luff::simulation
