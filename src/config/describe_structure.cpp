@@ -36,8 +36,9 @@ void describe_placement(Schema& s, PlacementOptions& placement)
 
 bool is_readable_mesh(const std::filesystem::path& file)
 {
-  return file.extension() == ".stl" || file.extension() == ".obj" || file.extension() == ".ply" ||
-         file.extension() == ".vtp";
+  std::string kind = file.extension();
+  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
+  return kind == ".stl" || kind == ".obj" || kind == ".ply" || kind == ".vtp";
 }
 
 }  // namespace
@@ -71,9 +72,10 @@ void describe(Schema& s, MeshOptions& mesh)
            .range = at_least_one,
            .required = true,
            .scaling = Scaling::Count});
-    s.key("pattern", mesh.pattern,
-          {.doc = "Diagonals of the squares: all one way, every other one turned, or irregular with vertices moved at "
-                  "random (always the same)."});
+    s.key(
+        "pattern", mesh.pattern,
+        {.doc = "`diagonal`: all squares are cut the same way; `alternating`: neighbours are cut the other way; "
+                "`irregular`: inner vertices are moved at random (alike in every run) and joined by Delaunay's rule."});
     s.rule(mesh.a.cross(mesh.b).norm() > 0.0, "b", "must not be parallel to `a`, and neither may be zero");
   });
   s.key("file", mesh.file, {.doc = "Read the mesh from an STL, OBJ, PLY or VTP file."});
@@ -131,8 +133,7 @@ void describe(Schema& s, LoadOptions& load)
 void describe(Schema& s, WhereOptions& where)
 {
   s.exactly_one_of({"edge", "box", "plane", "point"});
-  s.key("edge", where.edge,
-        {.doc = "On the mesh's boundary between these two points, in a straight line.", .unit = "m"});
+  s.key("edge", where.edge, {.doc = "On the straight line between these two points.", .unit = "m"});
   s.key("box", where.box, {.doc = "In the box with this lowest and this highest corner.", .unit = "m"});
   s.table("plane", where.plane, {.doc = "On a plane."});
   s.key("point", where.point, {.doc = "The one vertex nearest to this point.", .unit = "m"});

@@ -153,7 +153,7 @@ struct PlaneOptions {
 
 /// Vertices of a shell chosen by their place in the reference configuration: exactly one of the four.
 struct WhereOptions {
-  std::optional<std::array<Vec3, 2>> edge;  ///< boundary edges on the line between two end points
+  std::optional<std::array<Vec3, 2>> edge;  ///< on the line between two points
   std::optional<std::array<Vec3, 2>> box;   ///< lowest and highest corner
   std::optional<PlaneOptions> plane;
   std::optional<Vec3> point;  ///< the nearest vertex

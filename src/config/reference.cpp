@@ -2,6 +2,7 @@
 // The manual's page of all keys, as text and as Markdown.
 #include "config/reference.hpp"
 
+#include <algorithm>
 #include <regex>
 
 #include <fmt/core.h>
@@ -154,6 +155,21 @@ void Reference::later(std::initializer_list<std::string_view> keys)
   sections_[open_.back()].notes.push_back(fmt::format("Not in this version: {}.", in_backticks(names)));
 }
 
+/// Do not repeat the keys of a table (a mesh, a place) that stands in several others.
+void Reference::fold_alike()
+{
+  for (auto section = sections_.begin(); section != sections_.end(); ++section) {
+    const auto earlier = std::find_if(sections_.begin(), section, [&](const Section& other) {
+      return !other.rows.empty() && other.rows == section->rows && other.notes == section->notes;
+    });
+    if (earlier == section)
+      continue;
+    section->alike = earlier->title;
+    section->rows.clear();
+    section->notes.clear();
+  }
+}
+
 std::string Reference::text() const
 {
   std::string all = format_ == Format::Markdown ? "# Options of a case file\n\n" + introduction + "\n\n"
@@ -168,6 +184,8 @@ std::string Reference::as_text(const Section& section)
   std::string text = section.title + '\n';
   if (!section.doc.empty())
     text += wrapped(section.doc, "");
+  if (!section.alike.empty())
+    text += fmt::format("The keys are those of {}.\n", section.alike);
   for (const auto& row : section.rows) {
     const auto unit = row.unit.empty() ? "" : fmt::format(", in {}", row.unit);
     const auto preset = row.preset == "required" ? "; required"
@@ -185,6 +203,8 @@ std::string Reference::as_markdown(const Section& section)
   std::string text = fmt::format("## {}\n\n", section.path.empty() ? section.title : '`' + section.title + '`');
   if (!section.doc.empty())
     text += section.doc + "\n\n";
+  if (!section.alike.empty())
+    text += fmt::format("The keys are those of `{}`.\n\n", section.alike);
   if (!section.rows.empty())
     text += "| key | value | default | unit | meaning |\n|---|---|---|---|---|\n";
   for (const auto& row : section.rows) {

@@ -21,6 +21,7 @@ class Reference : public Schema {
     open("", "A case", "");
     describe(*this, defaults);
     close_table();
+    fold_alike();
     return text();
   }
 
@@ -46,6 +47,7 @@ class Reference : public Schema {
     std::string preset;  ///< "required", "may be left out", or the default in TOML
     std::string unit;
     std::string doc;
+    bool operator==(const Row&) const = default;
   };
   /// A table of the case file, with what is said below its keys.
   struct Section {
@@ -54,6 +56,7 @@ class Reference : public Schema {
     std::string doc;
     std::vector<Row> rows = {};
     std::vector<std::string> notes = {};
+    std::string alike = {};  ///< title of an earlier table with the same keys, told only there
   };
 
   struct Condition {
@@ -64,6 +67,7 @@ class Reference : public Schema {
   void open(const std::string& path, const std::string& title, const std::string& doc);
   std::string path_of(std::string_view name) const;
   std::string condition() const;
+  void fold_alike();
   std::string text() const;
   static std::string as_text(const Section& section);
   static std::string as_markdown(const Section& section);

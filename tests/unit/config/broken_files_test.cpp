@@ -15,23 +15,36 @@ class Breaker {
   std::string broken(std::string text)
   {
     const std::size_t at = below(text.size());
-    const std::size_t length = 1 + below(std::min<std::size_t>(30, text.size() - at));
-    switch (below(5)) {
+    const std::size_t length = 1 + below(std::min<std::size_t>(20, text.size() - at));
+    switch (below(6)) {
       case 0:
         return text.erase(at, length);
       case 1:
         return text.replace(at, 1, 1, static_cast<char>(below(256)));
       case 2:
-        return text.insert(below(text.size()), text.substr(at, length));
-      case 3:
         return text.replace(at, length, fragments_[below(fragments_.size())]);
-      default:
+      case 3:
         return text.insert(at, fragments_[below(fragments_.size())]);
+      case 4:
+        return with_another_digit(text, at);
+      default:
+        return without_line(text, at);
     }
   }
   std::size_t below(std::size_t end) { return std::uniform_int_distribution<std::size_t>(0, end - 1)(random_); }
 
  private:
+  std::string with_another_digit(std::string text, std::size_t at)
+  {
+    const auto digit = text.find_first_of("0123456789", at);
+    return digit == std::string::npos ? text : text.replace(digit, 1, 1, static_cast<char>('0' + below(10)));
+  }
+  static std::string without_line(std::string text, std::size_t at)
+  {
+    const auto begin = text.rfind('\n', at);
+    return begin == std::string::npos ? text : text.erase(begin, text.find('\n', begin + 1) - begin);
+  }
+
   std::mt19937 random_;
   std::vector<std::string> fragments_{"0",      "-1",   "1e400",      "nan",    "\"\"",
                                       "[]",     "{}",   "[[",         "]]",     "=",
