@@ -197,6 +197,16 @@ TEST(Resolution, IsRefusedUnlessPositiveAndSensible)
             "--resolution 1000000000: makes 100000000000 cells of 100, too many");
 }
 
+TEST(TheGuide, ShowsACaseThatIsValid)
+{
+  const auto guide = contents_of(std::filesystem::path(LUFF_SOURCE_DIR) / "docs/user/case-file.md");
+  const std::string opening = "```toml\n";
+  const auto begin = guide.find(opening) + opening.size();
+  const auto example = guide.substr(begin, guide.find("```", begin) - begin);
+  EXPECT_EQ(complaint_about(example), "");
+  EXPECT_EQ(load_text(example).shells.at(0).name, "flag");
+}
+
 TEST(TheReference, IsTheCommittedPageOfTheManual)
 {
   std::ostringstream page;
