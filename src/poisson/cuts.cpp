@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "poisson/cuts.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace luff::poisson {
+
+namespace {
+
+int add_cell(Cuts& cuts, const Box& box, const Index3& cell)
+{
+  const Unknown key = box.key(cell);
+  int n = cuts.find.find(key);
+  if (n < 0) {
+    n = static_cast<int>(cuts.cells.size());
+    cuts.find.insert(key, n);
+    CutCell cut;
+    cut.cell = cell;
+    cut.measure = box.measure(cell);
+    cuts.cells.push_back(cut);
+  }
+  return n;
+}
+
+void sort_links(std::vector<Link>& links)
+{
+  const auto order = [](const Link& a, const Link& b) {
+    return std::tie(a.from, a.to, a.side) < std::tie(b.from, b.to, b.side);
+  };
+  std::sort(links.begin(), links.end(), order);
+  std::size_t kept = 0;
+  for (const Link& link : links) {
+    if (kept > 0 && !order(links[kept - 1], link))
+      links[kept - 1].coefficient += link.coefficient;
+    else
+      links[kept++] = link;
+  }
+  links.resize(kept);
+}
+
+/// Disjoint sets of the few unknowns inside one coarse cell.
+struct Sets {
+  std::vector<int> root;
+  void reset(int n)
+  {
+    root.resize(n);
+    std::iota(root.begin(), root.end(), 0);
+  }
+  int find(int a)
+  {
+    while (root[a] != a)
+      a = root[a] = root[root[a]];
+    return a;
+  }
+  void join(int a, int b) { root[find(a)] = find(b); }
+};
+
+/// Builds the cuts of one level from those of the next finer one.
+class Coarsening {
+ public:
+  Coarsening(Cuts& fine_cuts, const Box& fine, const Box& coarse, const std::array<Merge, 3>& merges)
+      : fine_cuts_(fine_cuts), fine_(fine), coarse_(coarse), merges_(merges)
+  {
+    fine_cuts_.parent_of_extra.assign(fine_cuts_.extras.size(), no_unknown);
+    fine_cuts_.interpolation.clear();
+  }
+
+  Cuts run()
+  {
+    collect_boxes();
+    for (std::size_t n = 0; n < boxes_.size(); ++n)
+      split_into_parts(static_cast<int>(n));
+    add_neighbours_of_split_cells();
+    for (std::size_t n = 0; n < cuts_.cells.size(); ++n)
+      sum_coefficients(cuts_.cells[n], n < boxes_.size() ? boxes_[n].extras : none_);
+    sort_links(cuts_.links);
+    for (std::size_t n = 0; n < cuts_.cells.size(); ++n)
+      correct_interpolation(cuts_.cells[n], n < boxes_.size() ? boxes_[n].extras : none_);
+    return std::move(cuts_);
+  }
+
+ private:
+  struct Members {
+    std::vector<int> extras;  // fine extras inside this coarse cell
+  };
+  struct Child {
+    Index3 cell;
+    const CutCell* cut;
+    int position;
+  };
+
+  [[nodiscard]] Index3 box_of(const Index3& c) const
+  {
+    return {merges_[0].parent[c[0]], merges_[1].parent[c[1]], merges_[2].parent[c[2]]};
+  }
+  [[nodiscard]] Index3 fine_cell_of(Unknown x) const
+  {
+    return is_cell(x) ? fine_.cell(x) : fine_cuts_.extras[extra_number(x)].cell;
+  }
+  [[nodiscard]] double fine_coefficient(const Child& child, int side) const
+  {
+    return child.cut != nullptr ? child.cut->coefficient[side] : fine_.coefficient(child.cell, side);
+  }
+  [[nodiscard]] Unknown parent_of(Unknown x) const { return parent(fine_cuts_, fine_, cuts_, coarse_, merges_, x); }
+
+  void collect_boxes()
+  {
+    const auto box_number = [&](const Index3& fine_cell) {
+      const int n = add_cell(cuts_, coarse_, box_of(fine_cell));
+      boxes_.resize(std::max<std::size_t>(boxes_.size(), n + 1));
+      return n;
+    };
+    for (const CutCell& cut : fine_cuts_.cells)
+      box_number(cut.cell);
+    for (std::size_t e = 0; e < fine_cuts_.extras.size(); ++e)
+      boxes_[box_number(fine_cuts_.extras[e].cell)].extras.push_back(static_cast<int>(e));
+  }
+
+  void list_children(const Index3& C, std::vector<Child>& children) const
+  {
+    children.clear();
+    const auto begin = [&](int a) { return merges_[a].first[C[a]]; };
+    const auto end = [&](int a) { return merges_[a].first[C[a] + 1]; };
+    for (int k = begin(2); k < end(2); ++k)
+      for (int j = begin(1); j < end(1); ++j)
+        for (int i = begin(0); i < end(0); ++i)
+          children.push_back({{i, j, k},
+                              fine_cuts_.at(fine_.key({i, j, k})),
+                              (i - begin(0)) + 2 * (j - begin(1)) + 4 * (k - begin(2))});
+  }
+
+  /// Joins what open links join inside one coarse cell; true when some link inside it is closed.
+  bool join_inside(const Index3& C, const std::vector<int>& extras)
+  {
+    bool closed = false;
+    const auto number_of = [&](Unknown x) {
+      for (std::size_t n = 0; n < children_.size(); ++n)
+        if (is_cell(x) && fine_.key(children_[n].cell) == x)
+          return static_cast<int>(n);
+      for (std::size_t n = 0; n < extras.size(); ++n)
+        if (!is_cell(x) && extras[n] == extra_number(x))
+          return static_cast<int>(children_.size() + n);
+      return -1;
+    };
+    sets_.reset(static_cast<int>(children_.size() + extras.size()));
+    for (std::size_t a = 0; a < children_.size(); ++a)
+      for (int side = 0; side < 6; ++side) {
+        Index3 other;
+        if (!fine_.neighbour(children_[a].cell, side, other) || box_of(other) != C || other == children_[a].cell)
+          continue;
+        if (fine_coefficient(children_[a], side) > 0.0)
+          sets_.join(static_cast<int>(a), number_of(fine_.key(other)));
+        else
+          closed = true;
+      }
+    for (std::size_t n = 0; n < extras.size(); ++n)
+      for (const Link& link : fine_cuts_.links_from(extra_unknown(extras[n])))
+        if (const int other = number_of(link.to); other >= 0)
+          sets_.join(static_cast<int>(children_.size() + n), other);
+    return closed;
+  }
+
+  [[nodiscard]] bool reaches_out(const Index3& C, Unknown x) const
+  {
+    for (const Link& link : fine_cuts_.links_from(x))
+      if (link.to == outside || box_of(fine_cell_of(link.to)) != C)
+        return true;
+    if (!is_cell(x))
+      return false;
+    const Index3 cell = fine_.cell(x);
+    const Child child{cell, fine_cuts_.at(x), 0};
+    for (int side = 0; side < 6; ++side) {
+      Index3 other;
+      if (fine_coefficient(child, side) > 0.0 && (!fine_.neighbour(cell, side, other) || box_of(other) != C))
+        return true;
+    }
+    return false;
+  }
+
+  void split_into_parts(int n)
+  {
+    const Index3 C = cuts_.cells[n].cell;
+    const std::vector<int>& extras = boxes_[n].extras;
+    list_children(C, children_);
+    const bool closed = join_inside(C, extras);
+    if (!closed && extras.empty())
+      return;
+    const int members = static_cast<int>(children_.size() + extras.size());
+    const auto unknown_of = [&](int m) {
+      const int cells = static_cast<int>(children_.size());
+      return m < cells ? fine_.key(children_[m].cell) : extra_unknown(extras[m - cells]);
+    };
+    std::vector<double> measure(members, 0.0);
+    std::vector<char> open(members, 0);
+    for (int m = 0; m < members; ++m) {
+      const int cells = static_cast<int>(children_.size());
+      const double own = m >= cells               ? fine_cuts_.extras[extras[m - cells]].measure
+                         : children_[m].cut != nullptr ? children_[m].cut->measure
+                                                       : fine_.measure(children_[m].cell);
+      measure[sets_.find(m)] += own;
+      open[sets_.find(m)] |= static_cast<char>(reaches_out(C, unknown_of(m)));
+    }
+    int largest = sets_.find(0);
+    for (int m = 0; m < members; ++m)
+      if (sets_.find(m) == m && std::pair(open[m], measure[m]) > std::pair(open[largest], measure[largest]))
+        largest = m;
+    std::vector<Unknown> unknown(members, no_unknown);
+    for (int m = 0; m < members; ++m) {
+      if (sets_.find(m) != m)
+        continue;
+      if (m == largest) {
+        unknown[m] = coarse_.key(C);
+      } else if (open[m] != 0) {
+        unknown[m] = extra_unknown(static_cast<int>(cuts_.extras.size()));
+        cuts_.extras.push_back({C, measure[m]});
+      } else {
+        unknown[m] = first_pocket + cuts_.pockets++;
+      }
+    }
+    cuts_.cells[n].measure = measure[largest];
+    cuts_.cells[n].parts = static_cast<int>(cuts_.parts.size());
+    std::array<Unknown, 8> parts;
+    parts.fill(no_unknown);
+    for (std::size_t m = 0; m < children_.size(); ++m)
+      parts[children_[m].position] = unknown[sets_.find(static_cast<int>(m))];
+    cuts_.parts.push_back(parts);
+    for (std::size_t m = 0; m < extras.size(); ++m)
+      fine_cuts_.parent_of_extra[extras[m]] = unknown[sets_.find(static_cast<int>(children_.size() + m))];
+  }
+
+  void add_neighbours_of_split_cells()
+  {
+    for (std::size_t n = 0; n < boxes_.size(); ++n)
+      for (int side = 0; side < 6 && cuts_.cells[n].split(); ++side) {
+        Index3 other;
+        if (coarse_.neighbour(cuts_.cells[n].cell, side, other))
+          add_cell(cuts_, coarse_, other);
+      }
+  }
+
+  /// A coarse coefficient is the sum of the fine ones of its face times fine over coarse distance.
+  void sum_coefficients(CutCell& cut, const std::vector<int>& extras)
+  {
+    const Index3 C = cut.cell;
+    const Unknown key = coarse_.key(C);
+    const auto add = [&](Unknown from, Unknown to, int side, double fine_coefficient) {
+      const double c = fine_coefficient * merges_[side / 2].scale[C[side / 2] + side % 2];
+      if (c == 0.0)
+        return;
+      if (from == key && (to == outside || is_cell(to)))
+        cut.coefficient[side] += c;
+      else
+        cuts_.links.push_back({from, to, side, c});
+    };
+    const auto add_links = [&](Unknown x) {
+      for (const Link& link : fine_cuts_.links_from(x))
+        if (link.to == outside)
+          add(parent_of(x), outside, link.side, link.coefficient);
+        else if (box_of(fine_cell_of(link.to)) != C)
+          add(parent_of(x), parent_of(link.to), link.side, link.coefficient);
+    };
+    list_children(C, children_);
+    for (const Child& child : children_) {
+      const Unknown x = fine_.key(child.cell);
+      for (int side = 0; side < 6; ++side) {
+        const double c = fine_coefficient(child, side);
+        Index3 other;
+        if (!(c > 0.0))
+          continue;
+        if (!fine_.neighbour(child.cell, side, other))
+          add(parent_of(x), outside, side, c);
+        else if (box_of(other) != C)
+          add(parent_of(x), parent_of(fine_.key(other)), side, c);
+      }
+      add_links(x);
+    }
+    for (const int e : extras)
+      add_links(extra_unknown(e));
+  }
+
+  /// Interpolation stays linear towards a neighbour that an open face joins, when neither cell is split; it becomes
+  /// constant otherwise, and from its own part inside a split cell.
+  void correct_interpolation(const CutCell& cut, const std::vector<int>& extras)
+  {
+    const Unknown key = coarse_.key(cut.cell);
+    std::vector<Interpolation>& list = fine_cuts_.interpolation;
+    list_children(cut.cell, children_);
+    for (const Child& child : children_) {
+      const Unknown x = fine_.key(child.cell);
+      const Unknown own = cut.split() ? cuts_.parts[cut.parts][child.position] : key;
+      double to_cell = own == key ? 0.0 : -1.0;
+      for (int a = 0; a < 3; ++a) {
+        const double w = merges_[a].weight[child.cell[a]];
+        const int towards = merges_[a].towards[child.cell[a]];
+        if (w == 0.0 || keeps_weight(cut, 2 * a + (towards + 1) / 2))
+          continue;
+        to_cell += w;
+        Index3 other;
+        if (coarse_.neighbour(cut.cell, 2 * a + (towards + 1) / 2, other))
+          list.push_back({x, coarse_.key(other), -w});
+      }
+      if (to_cell != 0.0)
+        list.push_back({x, key, to_cell});
+      if (own != key && !is_pocket(own))
+        list.push_back({x, own, 1.0});
+    }
+    for (const int e : extras)
+      if (!is_pocket(fine_cuts_.parent_of_extra[e]))
+        list.push_back({extra_unknown(e), fine_cuts_.parent_of_extra[e], 1.0});
+  }
+
+  [[nodiscard]] bool keeps_weight(const CutCell& cut, int side) const
+  {
+    if (cut.split() || !(cut.coefficient[side] > 0.0))
+      return false;
+    Index3 other;
+    if (!coarse_.neighbour(cut.cell, side, other))
+      return true;
+    const CutCell* neighbour = cuts_.at(coarse_.key(other));
+    return neighbour == nullptr || !neighbour->split();
+  }
+
+  Cuts& fine_cuts_;
+  const Box& fine_;
+  const Box& coarse_;
+  const std::array<Merge, 3>& merges_;
+  Cuts cuts_;
+  std::vector<Members> boxes_;
+  std::vector<Child> children_;
+  Sets sets_;
+  const std::vector<int> none_;
+};
+
+}  // namespace
+
+std::span<const Link> Cuts::links_from(Unknown x) const
+{
+  const auto range = std::equal_range(links.begin(), links.end(), Link{x, 0, 0, 0.0},
+                                      [](const Link& a, const Link& b) { return a.from < b.from; });
+  return {range.first, range.second};
+}
+
+Cuts cuts_of_blocked_faces(const Box& box, std::span<const FaceIndex> faces)
+{
+  Cuts cuts;
+  const auto close = [&](const Index3& cell, int side) {
+    const auto known = cuts.cells.size();
+    CutCell& cut = cuts.cells[add_cell(cuts, box, cell)];
+    if (cuts.cells.size() > known)
+      for (int s = 0; s < 6; ++s)
+        cut.coefficient[s] = box.coefficient(cell, s);
+    cut.coefficient[side] = 0.0;
+  };
+  for (const FaceIndex& face : faces) {
+    Index3 high = face.cell;
+    const int n = box.lines[face.axis].n;
+    if (box.lines[face.axis].periodic)
+      high[face.axis] %= n;
+    Index3 low = high;
+    low[face.axis] = box.lines[face.axis].periodic ? (high[face.axis] + n - 1) % n : high[face.axis] - 1;
+    if (high[face.axis] < n)
+      close(high, 2 * face.axis);
+    if (low[face.axis] >= 0)
+      close(low, 2 * face.axis + 1);
+  }
+  return cuts;
+}
+
+Cuts coarsen_cuts(Cuts& fine_cuts, const Box& fine, const Box& coarse, const std::array<Merge, 3>& merges)
+{
+  return Coarsening(fine_cuts, fine, coarse, merges).run();
+}
+
+Unknown parent(const Cuts& fine_cuts, const Box& fine, const Cuts& coarse_cuts, const Box& coarse,
+               const std::array<Merge, 3>& merges, Unknown x)
+{
+  if (!is_cell(x))
+    return fine_cuts.parent_of_extra[extra_number(x)];
+  const Index3 c = fine.cell(x);
+  const Index3 C{merges[0].parent[c[0]], merges[1].parent[c[1]], merges[2].parent[c[2]]};
+  const CutCell* cut = coarse_cuts.at(coarse.key(C));
+  if (cut == nullptr || !cut->split())
+    return coarse.key(C);
+  int position = 0;
+  for (int a = 0; a < 3; ++a)
+    position += (c[a] - merges[a].first[C[a]]) << a;
+  return coarse_cuts.parts[cut->parts][position];
+}
+
+}  // namespace luff::poisson

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the cells of a level lie in memory: rows split by red-black colour.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <utility>
+
+#include "parallel/index_box.hpp"
+
+namespace luff::poisson {
+
+/// Cells (i, j, k), i never split among ranks, with one layer of halo.  A row (j, k) holds its cells of colour 0, those
+/// with i + j + k even, then those of colour 1; cell i is the (i >> 1)-th of its colour.  So a half sweep of red-black
+/// Gauss-Seidel runs over contiguous values, and the neighbours of the n-th cell of a colour along j and k are the n-th
+/// of the other colour.
+struct Layout {
+  IndexBox owned;
+  std::ptrdiff_t half = 0;   ///< from colour 0 to colour 1 of a row
+  std::ptrdiff_t row = 0;    ///< from j to j + 1
+  std::ptrdiff_t plane = 0;  ///< from k to k + 1
+  std::ptrdiff_t origin = 0;
+  std::ptrdiff_t size = 0;
+
+  Layout() = default;
+  explicit Layout(const IndexBox& box) : owned(box)
+  {
+    constexpr std::ptrdiff_t line = 16;
+    // Room for cells -1 and n of both colours: cell -1 lies in the padding before its colour.
+    half = ((box.extent(0) + 1) / 2 + 2 + line - 1) / line * line;
+    row = 2 * half;
+    plane = row * (box.extent(1) + 2);
+    origin = line + row * (1 - box.lo[1]) + plane * (1 - box.lo[2]);
+    size = line + plane * (box.extent(2) + 2) + line;
+  }
+
+  [[nodiscard]] std::ptrdiff_t start(int j, int k, int colour) const
+  {
+    return origin + j * row + k * plane + colour * half;
+  }
+  [[nodiscard]] std::ptrdiff_t index(int i, int j, int k) const { return start(j, k, (i + j + k) & 1) + (i >> 1); }
+  /// Parity of i of the cells of a colour in a row.
+  [[nodiscard]] static int parity(int j, int k, int colour) { return (j + k + colour) & 1; }
+  /// Number of owned cells of a parity in a row.
+  [[nodiscard]] int count(int parity) const { return (owned.hi[0] - parity + 1) / 2; }
+};
+
+/// Values of a level: those of its cells in the order of Layout, then those of unknowns that are no cell.
+class Values {
+ public:
+  Values() = default;
+  explicit Values(std::ptrdiff_t size) { resize(size); }
+
+  /// All values become zero.  Keeps the allocation where it is large enough.
+  void resize(std::ptrdiff_t size)
+  {
+    size_ = size;
+    if (size > capacity_) {
+      capacity_ = size + size / 8 + 64;
+      float* data = static_cast<float*>(std::aligned_alloc(64, (capacity_ * sizeof(float) + 63) / 64 * 64));
+      if (data == nullptr)
+        throw std::bad_alloc();
+      data_.reset(data);
+    }
+    std::fill_n(data_.get(), size_, 0.0f);
+  }
+  [[nodiscard]] std::ptrdiff_t size() const { return size_; }
+  [[nodiscard]] float* data() { return data_.get(); }
+  [[nodiscard]] const float* data() const { return data_.get(); }
+  float& operator[](std::ptrdiff_t q) { return data_[q]; }
+  float operator[](std::ptrdiff_t q) const { return data_[q]; }
+
+ private:
+  struct Free {
+    void operator()(float* p) const { std::free(p); }
+  };
+  std::ptrdiff_t size_ = 0;
+  std::ptrdiff_t capacity_ = 0;
+  std::unique_ptr<float[], Free> data_;
+};
+
+}  // namespace luff::poisson

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "poisson/level.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace luff::poisson {
+
+namespace {
+
+/// u = (f + sum of neighbours) / diagonal, every neighbour being of the other colour.
+struct CleanRow {
+  const float* __restrict left_face;
+  const float* __restrict right_face;
+  const float* __restrict ends;
+  const float* __restrict width;
+  const float* __restrict left;
+  const float* __restrict right;
+  const float* __restrict j_low;
+  const float* __restrict j_high;
+  const float* __restrict k_low;
+  const float* __restrict k_high;
+  float row, cj_low, cj_high, ck_low, ck_high;
+
+  [[nodiscard]] float neighbours(int n) const
+  {
+    return row * (left_face[n] * left[n] + right_face[n] * right[n]) +
+           width[n] * (cj_low * j_low[n] + cj_high * j_high[n] + ck_low * k_low[n] + ck_high * k_high[n]);
+  }
+  [[nodiscard]] float diagonal(int n) const
+  {
+    return row * ends[n] + width[n] * (cj_low + cj_high + ck_low + ck_high);
+  }
+};
+
+}  // namespace
+
+Level::Level(const Box& box, const IndexBox& owned, const Neighbourhood* neighbourhood)
+    : box_(box),
+      layout_(owned),
+      distributed_(neighbourhood != nullptr),
+      neighbourhood_(neighbourhood),
+      exchange_(layout_, box.lines, neighbourhood)
+{
+  const bool odd = box.lines[0].odd_seam() || box.lines[1].odd_seam() || box.lines[2].odd_seam();
+  residual_colours_ = odd ? Colours::Both : Colours::Red;
+  make_tables();
+  set_cuts(Cuts{});
+}
+
+void Level::make_tables()
+{
+  const Line& x = box_.lines[0];
+  for (int i = 0; i < x.n; ++i) {
+    left_[i & 1].push_back(static_cast<float>(x.inverse_d[i]));
+    right_[i & 1].push_back(static_cast<float>(x.inverse_d[i + 1]));
+    ends_[i & 1].push_back(static_cast<float>(x.inverse_d[i]) + static_cast<float>(x.inverse_d[i + 1]));
+    width_[i & 1].push_back(static_cast<float>(x.h[i]));
+  }
+}
+
+Level::Stencil Level::stencil(int j, int k, int colour) const
+{
+  Stencil s;
+  s.parity = Layout::parity(j, k, colour);
+  s.count = layout_.count(s.parity);
+  s.own = layout_.start(j, k, colour);
+  s.right = layout_.start(j, k, 1 - colour) + s.parity;
+  s.left = s.right - 1;
+  s.j_low = layout_.start(j - 1, k, 1 - colour);
+  s.j_high = layout_.start(j + 1, k, 1 - colour);
+  s.k_low = layout_.start(j, k - 1, 1 - colour);
+  s.k_high = layout_.start(j, k + 1, 1 - colour);
+  return s;
+}
+
+Level::Faces Level::faces(int j, int k) const
+{
+  const Line& y = box_.lines[1];
+  const Line& z = box_.lines[2];
+  return {static_cast<float>(y.h[j] * z.h[k]), static_cast<float>(z.h[k] * y.inverse_d[j]),
+          static_cast<float>(z.h[k] * y.inverse_d[j + 1]), static_cast<float>(y.h[j] * z.inverse_d[k]),
+          static_cast<float>(y.h[j] * z.inverse_d[k + 1])};
+}
+
+namespace {
+
+template <class Stencil, class Faces>
+CleanRow clean_row(const float* values, const Stencil& s, const Faces& c, const std::vector<float>& left,
+                   const std::vector<float>& right, const std::vector<float>& ends, const std::vector<float>& width)
+{
+  return {left.data(),       right.data(),      ends.data(),       width.data(), values + s.left, values + s.right,
+          values + s.j_low,  values + s.j_high, values + s.k_low,  values + s.k_high,
+          c.row,             c.j_low,           c.j_high,          c.k_low,      c.k_high};
+}
+
+}  // namespace
+
+void Level::start_plane(int k)
+{
+  for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
+    const Stencil s = stencil(j, k, 0);
+    const CleanRow row = clean_row(u.data(), s, faces(j, k), left_[s.parity], right_[s.parity], ends_[s.parity],
+                                   width_[s.parity]);
+    const float* __restrict rhs = f.data() + s.own;
+    float* __restrict out = u.data() + s.own;
+#pragma omp simd
+    for (int n = 0; n < s.count; ++n)
+      out[n] = rhs[n] / row.diagonal(n);
+  }
+  for (const Row* row = rows_begin(k, 0); row != rows_end(k, 0); ++row) {
+    float sum = f[row->place];
+    for (int e = row->begin; e < row->end; ++e)
+      if (entries_[e].place >= layout_.size)
+        sum += entries_[e].coefficient * u[entries_[e].place];
+    u[row->place] = sum * row->inverse;
+  }
+  exchange_.close_plane(u.data(), k, Colours::Red);
+}
+
+void Level::relax_plane(int k, int colour)
+{
+  for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
+    const Stencil s = stencil(j, k, colour);
+    const CleanRow row = clean_row(u.data(), s, faces(j, k), left_[s.parity], right_[s.parity], ends_[s.parity],
+                                   width_[s.parity]);
+    const float* __restrict rhs = f.data() + s.own;
+    float* __restrict out = u.data() + s.own;
+#pragma omp simd
+    for (int n = 0; n < s.count; ++n)
+      out[n] = (rhs[n] + row.neighbours(n)) / row.diagonal(n);
+  }
+  for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row)
+    u[row->place] = (f[row->place] + neighbour_sum(*row, u.data())) * row->inverse;
+  exchange_.close_plane(u.data(), k, colour == 0 ? Colours::Red : Colours::Black);
+}
+
+void Level::residual_plane(int k, int colour)
+{
+  for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
+    const Stencil s = stencil(j, k, colour);
+    const CleanRow row = clean_row(u.data(), s, faces(j, k), left_[s.parity], right_[s.parity], ends_[s.parity],
+                                   width_[s.parity]);
+    const float* __restrict rhs = f.data() + s.own;
+    const float* __restrict own = u.data() + s.own;
+    float* __restrict out = r.data() + s.own;
+#pragma omp simd
+    for (int n = 0; n < s.count; ++n)
+      out[n] = rhs[n] + row.neighbours(n) - row.diagonal(n) * own[n];
+  }
+  for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row)
+    r[row->place] = f[row->place] + neighbour_sum(*row, u.data()) - row->diagonal * u[row->place];
+  exchange_.close_plane(r.data(), k, colour == 0 ? Colours::Red : Colours::Black);
+}
+
+double Level::apply_plane(int k, const float* p, float* q) const
+{
+  double sum = 0.0;
+  for (int colour = 0; colour < 2; ++colour) {
+    for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
+      const Stencil s = stencil(j, k, colour);
+      const CleanRow row =
+          clean_row(p, s, faces(j, k), left_[s.parity], right_[s.parity], ends_[s.parity], width_[s.parity]);
+      const float* __restrict own = p + s.own;
+      float* __restrict out = q + s.own;
+      float part = 0.0f;
+#pragma omp simd reduction(+ : part)
+      for (int n = 0; n < s.count; ++n) {
+        const float value = row.diagonal(n) * own[n] - row.neighbours(n);
+        out[n] = value;
+        part += value * own[n];
+      }
+      sum += part;
+    }
+    for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row) {
+      const float value = row->diagonal * p[row->place] - neighbour_sum(*row, p);
+      sum += static_cast<double>(p[row->place]) * (value - q[row->place]);
+      q[row->place] = value;
+    }
+  }
+  return sum;
+}
+
+float Level::neighbour_sum(const Row& row, const float* values) const
+{
+  float sum = 0.0f;
+  for (int e = row.begin; e < row.end; ++e)
+    sum += entries_[e].coefficient * values[entries_[e].place];
+  return sum;
+}
+
+void Level::relax_extras(Order order, bool from_zero)
+{
+  if (extras_ == 0)
+    return;
+  const int n = static_cast<int>(extra_rows_.size());
+  for (int t = 0; t < n; ++t) {
+    const Row& row = extra_rows_[order == Order::Forward ? t : n - 1 - t];
+    float sum = f[row.place];
+    for (int e = row.begin; e < row.end; ++e)
+      if (!from_zero || entries_[e].place >= layout_.size)
+        sum += entries_[e].coefficient * u[entries_[e].place];
+    u[row.place] = sum * row.inverse;
+  }
+  share_extras(u.data());
+}
+
+void Level::residual_extras()
+{
+  for (const Row& row : extra_rows_)
+    r[row.place] = f[row.place] + neighbour_sum(row, u.data()) - row.diagonal * u[row.place];
+  share_extras(r.data());
+}
+
+void Level::share_extras(float* values) const
+{
+  if (!distributed_ || extras_ == 0)
+    return;
+  std::vector<float> own(extras_, 0.0f);
+  for (const int e : owned_extras_)
+    own[e] = values[layout_.size + e];
+  MPI_Allreduce(own.data(), values + layout_.size, extras_, MPI_FLOAT, MPI_SUM, neighbourhood_->comm);
+}
+
+void Level::sum_over_ranks(Values& values) const
+{
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_FLOAT, MPI_SUM,
+                neighbourhood_->comm);
+}
+
+const Level::Row* Level::rows_begin(int k, int colour) const
+{
+  return rows_.data() + first_row_[2 * (k - layout_.owned.lo[2]) + colour];
+}
+const Level::Row* Level::rows_end(int k, int colour) const
+{
+  return rows_.data() + first_row_[2 * (k - layout_.owned.lo[2]) + colour + 1];
+}
+
+bool Level::owns(const Cuts& cuts, Unknown x) const
+{
+  return layout_.owned.contains(is_cell(x) ? box_.cell(x) : cuts.extras[extra_number(x)].cell);
+}
+
+std::ptrdiff_t Level::place(const Cuts&, Unknown x) const
+{
+  if (!is_cell(x))
+    return layout_.size + extra_number(x);
+  Index3 c = box_.cell(x);
+  for (int a = 0; a < 3; ++a) {
+    const int n = box_.lines[a].n;
+    const auto near = [&](int i) { return i >= layout_.owned.lo[a] - 1 && i <= layout_.owned.hi[a]; };
+    for (const int shift : {0, -n, n})
+      if (near(c[a] + shift)) {
+        c[a] += shift;
+        break;
+      }
+    if (!near(c[a]))
+      return -1;
+  }
+  return layout_.index(c[0], c[1], c[2]);
+}
+
+/// The place of a neighbour, seen across periodic seams as a halo cell.
+std::ptrdiff_t Level::place_beside(const Cuts&, const Index3& cell, int side, Unknown x) const
+{
+  if (!is_cell(x))
+    return layout_.size + extra_number(x);
+  Index3 c = cell;
+  c[side / 2] += side % 2 == 0 ? -1 : 1;
+  return layout_.index(c[0], c[1], c[2]);
+}
+
+bool Level::differs(const CutCell& cut) const
+{
+  for (int side = 0; side < 6; ++side) {
+    const double clean = box_.coefficient(cut.cell, side);
+    if (std::abs(cut.coefficient[side] - clean) > 1e-9 * clean)
+      return true;
+  }
+  return false;
+}
+
+void Level::finish_row(std::int32_t place, int begin, double diagonal, std::vector<Row>& rows)
+{
+  const auto d = static_cast<float>(diagonal);
+  rows.push_back({place, begin, static_cast<int>(entries_.size()), d, d > 0.0f ? 1.0f / d : 0.0f});
+}
+
+void Level::add_cell_row(const Cuts& cuts, const CutCell& cut)
+{
+  const auto links = cuts.links_from(box_.key(cut.cell));
+  if (links.empty() && !differs(cut))
+    return;
+  const int begin = static_cast<int>(entries_.size());
+  double diagonal = 0.0;
+  for (int side = 0; side < 6; ++side) {
+    const double c = cut.coefficient[side];
+    diagonal += c;
+    if (c > 0.0)
+      entries_.push_back({static_cast<std::int32_t>(place_beside(cuts, cut.cell, side, 0)), static_cast<float>(c)});
+  }
+  for (const Link& link : links) {
+    diagonal += link.coefficient;
+    entries_.push_back({static_cast<std::int32_t>(place_beside(cuts, cut.cell, link.side, link.to)),
+                        static_cast<float>(link.coefficient)});
+  }
+  const Index3& c = cut.cell;
+  finish_row(static_cast<std::int32_t>(layout_.index(c[0], c[1], c[2])), begin, diagonal, rows_);
+}
+
+void Level::add_extra_row(const Cuts& cuts, int e)
+{
+  const int begin = static_cast<int>(entries_.size());
+  double diagonal = 0.0;
+  for (const Link& link : cuts.links_from(extra_unknown(e))) {
+    diagonal += link.coefficient;
+    if (link.to != outside)
+      entries_.push_back({static_cast<std::int32_t>(place_beside(cuts, cuts.extras[e].cell, link.side, link.to)),
+                          static_cast<float>(link.coefficient)});
+  }
+  finish_row(static_cast<std::int32_t>(layout_.size + e), begin, diagonal, extra_rows_);
+}
+
+void Level::set_cuts(const Cuts& cuts)
+{
+  rows_.clear();
+  extra_rows_.clear();
+  entries_.clear();
+  owned_extras_.clear();
+  const bool resize = static_cast<int>(cuts.extras.size()) != extras_ || u.size() == 0;
+  extras_ = static_cast<int>(cuts.extras.size());
+  if (resize)
+    for (Values* values : {&u, &f, &r})
+      values->resize(layout_.size + extras_);
+  const auto& owned = layout_.owned;
+  std::vector<const CutCell*> cells;
+  for (const CutCell& cut : cuts.cells)
+    if (owned.contains(cut.cell))
+      cells.push_back(&cut);
+  const auto group = [&](const CutCell* cut) {
+    const Index3& c = cut->cell;
+    return 2 * (c[2] - owned.lo[2]) + ((c[0] + c[1] + c[2]) & 1);
+  };
+  std::sort(cells.begin(), cells.end(), [&](const CutCell* a, const CutCell* b) {
+    return std::tuple(group(a), a->cell[1], a->cell[0]) < std::tuple(group(b), b->cell[1], b->cell[0]);
+  });
+  const int groups = 2 * owned.extent(2);
+  first_row_.assign(groups + 1, 0);
+  auto next = cells.begin();
+  for (int g = 0; g < groups; ++g) {
+    for (; next != cells.end() && group(*next) == g; ++next)
+      add_cell_row(cuts, **next);
+    first_row_[g + 1] = static_cast<int>(rows_.size());
+  }
+  for (int e = 0; e < extras_; ++e)
+    if (owned.contains(cuts.extras[e].cell)) {
+      owned_extras_.push_back(e);
+      add_extra_row(cuts, e);
+    }
+}
+
+}  // namespace luff::poisson

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One multigrid level on one rank: the scaled operator in single precision and its red-black Gauss-Seidel sweeps.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "poisson/cuts.hpp"
+#include "poisson/layout.hpp"
+#include "poisson/row_exchange.hpp"
+
+namespace luff::poisson {
+
+/// Away from blocked faces the operator is a product of 1-D tables, so no coefficient is read from memory:
+///
+///   (A u)_ijk = h_j h_k [ (u_i - u_i-1)/d_i + (u_i - u_i+1)/d_i+1 ] + h_i [ h_k (...)_j + h_j (...)_k ].
+///
+/// Cells beside blocked faces and extra unknowns have explicit rows instead, applied after the clean ones.
+class Level {
+ public:
+  Level(const Box& box, const IndexBox& owned, const Neighbourhood* neighbourhood);
+
+  [[nodiscard]] const Box& box() const { return box_; }
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+  [[nodiscard]] bool distributed() const { return distributed_; }
+  [[nodiscard]] int extras() const { return extras_; }
+  [[nodiscard]] RowExchange& exchange() { return exchange_; }
+  /// Colours that carry a residual after a black half sweep: red, or both where colours clash at an odd periodic seam.
+  [[nodiscard]] Colours residual_colours() const { return residual_colours_; }
+
+  /// Takes the explicit rows of this rank's cells and extras, and resizes the arrays.
+  void set_cuts(const Cuts& cuts);
+  [[nodiscard]] const std::vector<int>& owned_extras() const { return owned_extras_; }
+  /// Place of an unknown in the arrays, for a reader near this rank's block; -1 where this rank does not hold it.
+  [[nodiscard]] std::ptrdiff_t place(const Cuts& cuts, Unknown x) const;
+  [[nodiscard]] bool owns(const Cuts& cuts, Unknown x) const;
+
+  /// u = f / diagonal on red cells of plane k: a red half sweep from u = 0.
+  void start_plane(int k);
+  void relax_plane(int k, int colour);
+  /// r = f - A u on cells of a colour.
+  void residual_plane(int k, int colour);
+  /// q = A p; returns the sum of p q over plane k.
+  double apply_plane(int k, const float* p, float* q) const;
+
+  enum class Order { Forward, Backward };
+  /// Gauss-Seidel over this rank's extras, then shares them.  From u = 0, only extras are read.
+  void relax_extras(Order order, bool from_zero);
+  void residual_extras();
+  void share_extras(float* values) const;
+  /// Collective: what every rank contributed to the values of a level that all hold whole.
+  void sum_over_ranks(Values& values) const;
+
+  Values u, f, r;
+
+ private:
+  struct Entry {
+    std::int32_t place;
+    float coefficient;
+  };
+  struct Row {
+    std::int32_t place;
+    int begin, end;  // entries
+    float diagonal, inverse;
+  };
+  struct Stencil {
+    std::ptrdiff_t own, left, right, j_low, j_high, k_low, k_high;
+    int parity, count;
+  };
+  struct Faces {
+    float row, j_low, j_high, k_low, k_high;
+  };
+  void make_tables();
+  [[nodiscard]] Stencil stencil(int j, int k, int colour) const;
+  [[nodiscard]] Faces faces(int j, int k) const;
+  void add_cell_row(const Cuts& cuts, const CutCell& cut);
+  void add_extra_row(const Cuts& cuts, int e);
+  void finish_row(std::int32_t place, int begin, double diagonal, std::vector<Row>& rows);
+  [[nodiscard]] std::ptrdiff_t place_beside(const Cuts& cuts, const Index3& cell, int side, Unknown x) const;
+  [[nodiscard]] bool differs(const CutCell& cut) const;
+  [[nodiscard]] const Row* rows_begin(int k, int colour) const;
+  [[nodiscard]] const Row* rows_end(int k, int colour) const;
+  [[nodiscard]] float neighbour_sum(const Row& row, const float* values) const;
+
+  Box box_;
+  Layout layout_;
+  bool distributed_;
+  const Neighbourhood* neighbourhood_;
+  RowExchange exchange_;
+  Colours residual_colours_;
+  std::array<std::vector<float>, 2> left_, right_, ends_, width_;  // per parity of i
+  int extras_ = 0;
+  std::vector<int> owned_extras_;
+  std::vector<Row> rows_;
+  std::vector<int> first_row_;  // per (plane, colour)
+  std::vector<Row> extra_rows_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace luff::poisson

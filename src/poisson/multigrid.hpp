@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The multigrid V-cycle that preconditions conjugate gradients.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "poisson/coarsest.hpp"
+#include "poisson/transfer.hpp"
+
+namespace luff::poisson {
+
+/// A symmetric V-cycle: two sweeps of red-black Gauss-Seidel down and two, mirrored, up.  Cells merge where they are
+/// narrow until they are about cubes, then everywhere.
+///
+/// The finest levels are shared out among ranks; from the first small one on, every rank works on the whole.
+class Multigrid {
+ public:
+  /// The finest level covers `owned` of `box`.
+  Multigrid(Box box, const IndexBox& owned, const Neighbourhood& neighbourhood);
+
+  /// Takes the blocked faces of the whole domain, the same on every rank.
+  void set_blocked(std::span<const FaceIndex> faces);
+
+  [[nodiscard]] Level& finest() { return *levels_.front(); }
+  [[nodiscard]] const Level& finest() const { return *levels_.front(); }
+  [[nodiscard]] const Cuts& finest_cuts() const { return cuts_.front(); }
+  [[nodiscard]] const CoarsestSolver& coarsest() const { return coarsest_; }
+  /// Connected component of every owned cell of the finest level, i fastest, then j, or nothing when there is only one;
+  /// and whether each component is floating.  Numbered alike on every rank.
+  void label_components(std::vector<int>& component, std::vector<char>& floating) const;
+
+  /// finest().u = M finest().f, M symmetric positive (semi-)definite.  Collective.
+  void cycle() { cycle(0); }
+
+ private:
+  void add_levels(const Neighbourhood& neighbourhood);
+  void cycle(std::size_t l);
+  void smooth_from_zero(Level& level);
+  void smooth(Level& level, Transfer& correction);
+
+  std::vector<std::unique_ptr<Level>> levels_;
+  std::vector<std::unique_ptr<Transfer>> transfers_;
+  std::vector<Cuts> cuts_;
+  CoarsestSolver coarsest_;
+};
+
+}  // namespace luff::poisson

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "poisson/multigrid_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace luff::poisson {
+
+namespace {
+
+/// Single precision gains about five digits in a round.
+constexpr double round_tolerance = 1e-5;
+
+Index3 longest_last(const Index3& cells) { return cells[1] > cells[2] ? Index3{0, 2, 1} : Index3{0, 1, 2}; }
+
+std::vector<FaceIndex> gather_faces(MPI_Comm comm, const std::vector<FaceIndex>& own)
+{
+  static_assert(sizeof(FaceIndex) == 4 * sizeof(int));
+  int ranks = 1;
+  MPI_Comm_size(comm, &ranks);
+  std::vector<int> counts(ranks), starts(ranks, 0);
+  const int count = static_cast<int>(4 * own.size());
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  for (int r = 1; r < ranks; ++r)
+    starts[r] = starts[r - 1] + counts[r - 1];
+  std::vector<FaceIndex> all((starts.back() + counts.back()) / 4);
+  MPI_Allgatherv(own.data(), count, MPI_INT, all.data(), counts.data(), starts.data(), MPI_INT, comm);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+}  // namespace
+
+MultigridSolver::MultigridSolver(const grid::Grid& grid, const SideConditions& sides)
+    : grid_(grid),
+      axis_(longest_last(grid.cells())),
+      unit_(grid.smallest_width()),
+      neighbourhood_(neighbourhood()),
+      multigrid_(make_box(sides), IndexBox{internal(grid.owned().lo), internal(grid.owned().hi)}, neighbourhood_),
+      inner_(multigrid_, grid.ranks().comm()),
+      fluxes_(grid, sides),
+      halo_(grid.ranks()),
+      net_(grid.owned()),
+      correction_(grid.owned())
+{
+  label_components();
+}
+
+MultigridSolver::~MultigridSolver() = default;
+
+Neighbourhood MultigridSolver::neighbourhood() const
+{
+  Neighbourhood result;
+  result.comm = grid_.ranks().comm();
+  for (int a = 0; a < 3; ++a) {
+    result.ranks[a] = grid_.ranks().neighbours(axis_[a]);
+    result.split[a] = grid_.ranks().blocks(axis_[a]) > 1;
+  }
+  return result;
+}
+
+Box MultigridSolver::make_box(const SideConditions& sides) const
+{
+  Box box;
+  for (int a = 0; a < 3; ++a) {
+    const int axis = axis_[a];
+    std::vector<double> h;
+    for (int i = 0; i < grid_.cells()[axis]; ++i)
+      h.push_back(grid_.width(axis, i) / unit_);
+    box.lines[a] = make_line(std::move(h), grid_.ranks().periodic(axis), sides[axis], grid_.ranks().splits(axis));
+  }
+  return box;
+}
+
+void MultigridSolver::set_blocked(std::span<const FaceIndex> faces)
+{
+  std::vector<FaceIndex> sorted(faces.begin(), faces.end());
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  if (grid_.ranks().max(sorted == blocked_ ? 0.0 : 1.0) == 0.0)
+    return;
+  blocked_ = std::move(sorted);
+  fluxes_.set_blocked(blocked_);
+  std::vector<FaceIndex> all = gather_faces(grid_.ranks().comm(), blocked_);
+  for (FaceIndex& face : all) {
+    face.cell = internal(face.cell);
+    face.axis = face.axis == 0 ? 0 : axis_[face.axis];
+  }
+  multigrid_.set_blocked(all);
+  label_components();
+}
+
+void MultigridSolver::label_components() { multigrid_.label_components(component_, floating_); }
+
+/// Subtracts from each floating component its mean, weighted by volume or not.
+void MultigridSolver::remove_means(const View<double>& values, bool weighted) const
+{
+  if (std::none_of(floating_.begin(), floating_.end(), [](char f) { return f != 0; }))
+    return;
+  const IndexBox& box = grid_.owned();
+  const auto weight = [&](int i, int j, int k) { return weighted ? grid_.volume(i, j, k) : 1.0; };
+  std::vector<double> sums(2 * floating_.size(), 0.0);
+  if (component_.empty()) {
+    sums[0] = sum_cells(box, [&](int i, int j, int k) { return weight(i, j, k) * values(i, j, k); });
+    sums[1] = sum_cells(box, [&](int i, int j, int k) { return weight(i, j, k); });
+  } else {
+    for (int k = box.lo[2]; k < box.hi[2]; ++k)
+      for (int j = box.lo[1]; j < box.hi[1]; ++j)
+        for (int i = box.lo[0]; i < box.hi[0]; ++i) {
+          const std::size_t c = component_of({i, j, k});
+          sums[2 * c] += weight(i, j, k) * values(i, j, k);
+          sums[2 * c + 1] += weight(i, j, k);
+        }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, grid_.ranks().comm());
+  std::vector<double> mean(floating_.size(), 0.0);
+  for (std::size_t c = 0; c < mean.size(); ++c)
+    if (floating_[c] != 0 && sums[2 * c + 1] > 0.0)
+      mean[c] = sums[2 * c] / sums[2 * c + 1];
+  for_each_row(box, [&](int begin, int end, int j, int k) {
+    for (int i = begin; i < end; ++i)
+      values(i, j, k) -= mean[component_.empty() ? 0 : component_of({i, j, k})];
+  });
+}
+
+std::size_t MultigridSolver::component_of(const Index3& cell) const
+{
+  const IndexBox& box = multigrid_.finest().layout().owned;
+  const Index3 c = internal(cell);
+  return component_[(c[0] - box.lo[0]) +
+                    static_cast<std::size_t>(box.extent(0)) *
+                        ((c[1] - box.lo[1]) + static_cast<std::size_t>(box.extent(1)) * (c[2] - box.lo[2]))];
+}
+
+void MultigridSolver::load_right_hand_side(double scale)
+{
+  Level& level = multigrid_.finest();
+  const View<const double> net = std::as_const(net_).view();
+  for_each_row(grid_.owned(), [&](int, int, int j, int k) {
+    const Index3 c = internal({0, j, k});
+    for (int q = 0; q < 2; ++q) {
+      const int colour = (q + j + k) & 1;
+      float* __restrict f = level.f.data() + level.layout().start(c[1], c[2], colour);
+      const double* __restrict row = net.row(j, k);
+      const int m = level.layout().count(q);
+#pragma omp simd
+      for (int n = 0; n < m; ++n)
+        f[n] = static_cast<float>(scale * row[2 * n + q]);
+    }
+  });
+}
+
+void MultigridSolver::unload_solution()
+{
+  const Layout& layout = multigrid_.finest().layout();
+  const Values& e = inner_.solution();
+  const View<float> natural = correction_.view();
+  const IndexBox& owned = grid_.owned();
+  for_each_row(owned.grown(1), [&](int, int, int j, int k) {
+    const Index3 c = internal({0, j, k});
+    for (int q = 0; q < 2; ++q) {
+      const float* __restrict from = e.data() + layout.start(c[1], c[2], (q + j + k) & 1);
+      float* __restrict to = natural.row(j, k);
+      const int m = layout.count(q);
+#pragma omp simd
+      for (int n = 0; n < m; ++n)
+        to[2 * n + q] = from[n];
+    }
+  });
+}
+
+bool MultigridSolver::met(const Outflow& outflow, double initial_norm, const Target& target) const
+{
+  return outflow.norm == 0.0 || (target.relative > 0.0 && outflow.norm <= target.relative * initial_norm) ||
+         (target.divergence > 0.0 && outflow.divergence <= target.divergence * target.speed);
+}
+
+/// No more digits than are missing, nor than single precision gives.
+double MultigridSolver::inner_tolerance(const Outflow& outflow, double initial_norm, const Target& target) const
+{
+  double missing = 0.0;
+  if (target.relative > 0.0)
+    missing = std::max(missing, target.relative * initial_norm / outflow.norm);
+  if (target.divergence > 0.0)
+    missing = std::max(missing, target.divergence * target.speed / outflow.divergence);
+  return std::clamp(0.5 * missing, round_tolerance, 0.3);
+}
+
+Report MultigridSolver::project(const View3<double>& U, const View<double>& p, double dt, const Target& target)
+{
+  const View<double> net = net_.view();
+  const double initial_norm = target.relative > 0.0 ? fluxes_.measure(U, net).norm : 0.0;
+  halo_.exchange({p});
+  fluxes_.correct<double>(U, p, dt);
+  Outflow outflow = fluxes_.measure(U, net);
+  Report report;
+  while (!met(outflow, initial_norm, target) && report.iterations < target.max_iterations &&
+         std::isfinite(outflow.norm)) {
+    const double round_off = 2.0 * std::numeric_limits<double>::epsilon() * outflow.flux_norm / outflow.norm;
+    if (round_off >= 0.5)
+      break;
+    const double tolerance = std::max(round_off, inner_tolerance(outflow, initial_norm, target));
+    remove_means(net, /*weighted=*/false);
+    const double scale = 1.0 / outflow.norm;
+    load_right_hand_side(scale);
+    const auto inner = inner_.solve(tolerance, target.max_iterations - report.iterations);
+    report.iterations += inner.iterations;
+    if (!inner.finite)
+      break;
+    unload_solution();
+    const View<const float> e = std::as_const(correction_).view();
+    const double factor = 1.0 / (scale * unit_);
+    fluxes_.correct<float>(U, e, factor);
+    const Outflow corrected = fluxes_.measure(U, net);
+    ++report.refinements;
+    if (getenv("DBG")) printf("   try %.3e -> %.3e\n", outflow.norm, corrected.norm);
+    if (!(corrected.norm < 0.9 * outflow.norm)) {
+      fluxes_.correct<float>(U, e, -factor);
+      outflow = fluxes_.measure(U, net);
+      break;
+    }
+    if (getenv("DBG")) printf("   tol %.2e inner its %d red %.2e  norm %.3e -> %.3e  div %.3e\n", tolerance, inner.iterations, inner.reduction, outflow.norm, corrected.norm, corrected.divergence);
+    outflow = corrected;
+    const double to_pressure = factor / dt;
+    for_each_cell(grid_.owned(), [=](int i, int j, int k) { p(i, j, k) += to_pressure * e(i, j, k); });
+  }
+  remove_means(p, /*weighted=*/true);
+  halo_.exchange({p});
+  report.divergence = outflow.divergence / target.speed;
+  report.worst_cell = outflow.worst_cell;
+  report.converged = met(outflow, initial_norm, target);
+  return report;
+}
+
+}  // namespace luff::poisson

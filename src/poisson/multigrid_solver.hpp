@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The projection by multigrid-preconditioned conjugate gradients inside refinement of the fluxes themselves.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "poisson/conjugate_gradients.hpp"
+#include "poisson/flux_correction.hpp"
+#include "poisson/pressure_solver.hpp"
+
+namespace luff::poisson {
+
+/// Refinement in flux form: the right-hand side of every round is the net outflow of the fluxes as they are, in double
+/// precision, so that round-off of the pressure never shows in the divergence; the correction is found in single.
+class MultigridSolver final : public PressureSolver {
+ public:
+  MultigridSolver(const grid::Grid& grid, const SideConditions& sides);
+  ~MultigridSolver() override;
+
+  void set_blocked(std::span<const FaceIndex> faces) override;
+  Report project(const View3<double>& U, const View<double>& p, double dt, const Target& target) override;
+
+ private:
+  [[nodiscard]] Index3 internal(const Index3& c) const { return {c[0], c[axis_[1]], c[axis_[2]]}; }
+  [[nodiscard]] Neighbourhood neighbourhood() const;
+  [[nodiscard]] Box make_box(const SideConditions& sides) const;
+  void label_components();
+  [[nodiscard]] std::size_t component_of(const Index3& cell) const;
+  void remove_means(const View<double>& values, bool weighted) const;
+  void load_right_hand_side(double scale);
+  void unload_solution();
+  [[nodiscard]] bool met(const Outflow& outflow, double initial_norm, const Target& target) const;
+  [[nodiscard]] double inner_tolerance(const Outflow& outflow, double initial_norm, const Target& target) const;
+
+  const grid::Grid& grid_;
+  Index3 axis_;  // grid axis of each axis of the multigrid: the longer of y and z comes last
+  double unit_;  // smallest width
+  Neighbourhood neighbourhood_;
+  Multigrid multigrid_;
+  ConjugateGradients inner_;
+  FluxCorrection fluxes_;
+  HaloExchange halo_;
+  Field<double> net_;
+  Field<float> correction_;
+  std::vector<FaceIndex> blocked_;        // of this rank
+  std::vector<int> component_;            // see Multigrid::label_components
+  std::vector<char> floating_;            // per component
+};
+
+}  // namespace luff::poisson

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "poisson/pressure_solver.hpp"
+
+#include "core/error.hpp"
+#include "poisson/multigrid_solver.hpp"
+
+namespace luff::poisson {
+
+std::unique_ptr<PressureSolver> make_pressure_solver(const grid::Grid& grid, const SideConditions& sides,
+                                                     const SolverOptions& options)
+{
+  if (options.kind == "multigrid")
+    return std::make_unique<MultigridSolver>(grid, sides);
+  fail_input("pressure.solver = \"{}\" is not known: choose \"multigrid\" or \"petsc\"", options.kind);
+}
+
+}  // namespace luff::poisson
