@@ -121,11 +121,13 @@ void describe(Schema& s, SupportOptions& support)
 
 void describe(Schema& s, LoadOptions& load)
 {
-  s.table("where", load.where, {.doc = "The vertices loaded.", .required = true});
+  s.table("where", load.where,
+          {.doc = "The vertices loaded; `pressure` and `traction` act on triangles with all corners among them.",
+           .required = true});
   s.exactly_one_of({"force", "pressure", "traction"});
   s.key("force", load.force, {.doc = "Total force, shared by the vertices; keeps its direction.", .unit = "N"});
   s.key("pressure", load.pressure,
-        {.doc = "Pressure on the side the normal points to; follows the surface.", .unit = "Pa"});
+        {.doc = "Force per area along the normal (a x b of a rectangle); follows the surface.", .unit = "Pa"});
   s.key("traction", load.traction,
         {.doc = "Force per area of the reference configuration; keeps its direction.", .unit = "Pa"});
 }

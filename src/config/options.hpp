@@ -177,7 +177,7 @@ struct SupportOptions {
 struct LoadOptions {
   WhereOptions where;
   std::optional<VectorExpression> force;     ///< total, shared by the vertices
-  std::optional<Expression> pressure;        ///< follower, per current area, along minus the normal
+  std::optional<Expression> pressure;        ///< follower, per current area, along the normal
   std::optional<VectorExpression> traction;  ///< dead, per reference area
 
   bool operator==(const LoadOptions&) const = default;
