@@ -7,6 +7,7 @@
 #include <charconv>
 #include <fstream>
 #include <optional>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -31,13 +32,23 @@ std::string contents_of(const std::filesystem::path& file)
   return text.str();
 }
 
+/// What toml++ says, in plainer words where a key or a table is given twice.
+std::string explained(const std::string& description)
+{
+  static const std::regex twice("cannot redefine existing .* '(.*)'( as .*)?$");
+  std::smatch name;
+  if (std::regex_search(description, name, twice))
+    return fmt::format("'{}' is given twice; keep one", name[1].str());
+  return description;
+}
+
 toml::table parse(std::string_view text, const std::string& source)
 {
   try {
     return toml::parse(text, source);
   } catch (const toml::parse_error& error) {
     const Place place{source, static_cast<int>(error.source().begin.line)};
-    throw InputError(fmt::format("{}: {}", place.text(), error.description()));
+    fail_input("{}: {}", place.text(), explained(std::string(error.description())));
   }
 }
 
@@ -96,7 +107,7 @@ std::size_t index_of(const toml::array& entries, const std::string& part, const 
              suggestion(part, names));
 }
 
-/// The node below `node` that `part` names; none if a table has no such key.
+/// The node below `node` that `part` names; none if a table has no such key. \throws InputError if it cannot have any.
 toml::node* child(toml::node& node, const std::string& part, const std::string& source)
 {
   if (auto* table = node.as_table())
@@ -148,6 +159,25 @@ std::string join_path(const std::vector<std::string>& parts, std::size_t first)
   return path;
 }
 
+void replace_entry(toml::array& array, const std::string& part, const std::string& value, const std::string& source)
+{
+  const auto index = static_cast<std::ptrdiff_t>(index_of(array, part, source));
+  auto assigned = parse_assignment("entry", value, source);
+  array.replace(array.cbegin() + index, std::move(*assigned.get("entry")));
+}
+
+/// `path` starts with `key`, a key of the holder; nodes are moved because copies forget where they were written.
+void replace_key(toml::node& holder, const std::string& path, const std::string& key, const std::string& value,
+                 const std::string& source)
+{
+  child(holder, key, source);
+  auto assigned = parse_assignment(path, value, source);
+  auto& table = *holder.as_table();
+  table.erase(key);
+  for (auto&& [name, node] : assigned)
+    table.insert(name, std::move(node));
+}
+
 }  // namespace
 
 Document::Document(const std::filesystem::path& file)
@@ -160,33 +190,24 @@ Document::Document(const std::filesystem::path& file)
 void Document::set(const std::string& assignment)
 {
   const std::string source = "--set " + assignment;
-  const auto equals = assignment.find('=');
-  if (equals == std::string::npos)
-    fail_input("{}: must be key=value, as in time.end=2", source);
-  const auto value = trimmed(assignment.substr(equals + 1));
+  const auto equals = std::min(assignment.find('='), assignment.size());
   const auto path = split_path(assignment.substr(0, equals));
+  const auto value = trimmed(std::string_view(assignment).substr(std::min(equals + 1, assignment.size())));
   if (path.empty() || value.empty())
     fail_input("{}: must be key=value, as in time.end=2", source);
 
   toml::node* holder = &root_;
   std::size_t depth = 0;
-  for (toml::node* next = holder; depth + 1 < path.size(); ++depth, holder = next) {
-    next = child(*holder, path[depth], source);
+  for (; depth + 1 < path.size(); ++depth) {
+    toml::node* next = child(*holder, path[depth], source);
     if (next == nullptr)
-      break;
+      break;  // the rest of the path makes new tables
+    holder = next;
   }
-  if (auto* array = holder->as_array()) {
-    const auto index = static_cast<std::ptrdiff_t>(index_of(*array, path[depth], source));
-    auto entry = parse_assignment("entry", value, source);
-    array->replace(array->cbegin() + index, std::move(*entry.get("entry")));
-  } else if (auto* table = holder->as_table()) {
-    auto entry = parse_assignment(join_path(path, depth), value, source);
-    table->erase(path[depth]);
-    for (auto&& [key, node] : entry)
-      table->insert(key, std::move(node));
-  } else {
-    child(*holder, path[depth], source);
-  }
+  if (auto* array = holder->as_array())
+    replace_entry(*array, path.back(), value, source);
+  else
+    replace_key(*holder, join_path(path, depth), path[depth], value, source);
 }
 
 Place place_of(const toml::node& node)
