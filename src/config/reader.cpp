@@ -90,7 +90,9 @@ Place Reader::place_of_key(std::string_view name) const
 /// The key's node, if it is given; from now on the name is a known one.
 const toml::node* Reader::find(std::string_view name)
 {
-  frames_.back().known.emplace_back(name);
+  auto& known = frames_.back().known;
+  if (!contains(known, name))
+    known.emplace_back(name);
   return frames_.back().table->get(name);
 }
 

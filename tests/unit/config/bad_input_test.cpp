@@ -30,6 +30,8 @@ const BadInput keys[] = {
      "case.toml:4: time.cfk is not a key of [time] (did you mean 'cfl'?)"},
     {"AKeyIsUnknown", "end = 2.0", "end = 2.0\nunbelievable = 0.5",
      "case.toml:4: time.unbelievable is not a key of [time] (known: end, step, cfl, scheme)"},
+    {"AKeyIsUnknownBesideAnOptionalOne", "end = 2.0", "end = 2.0\ncfl = 1\nunbelievable = 0.5",
+     "case.toml:5: time.unbelievable is not a key of [time] (known: end, step, cfl, scheme)"},
     {"ATableIsMisspelt", "[output]", "[outptu]\n[output]",
      "case.toml:36: outptu is not a key of a case (did you mean 'output'?)"},
     {"AKeyOfAnInlineTableIsMisspelt", "poisson = 0.4", "poisson = 0.4, yuong = 2",
