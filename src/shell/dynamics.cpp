@@ -57,9 +57,8 @@ void Dynamics::restore(const Checkpoint& checkpoint)
 /// M a = f_ext - f_int - D v on the free displacements.
 Eigen::VectorXd Dynamics::consistent_acceleration() const
 {
-  BlockMatrix mass(shell_.pattern());
-  shell_.add_mass(1, mass);
-  const auto solver = make_linear_solver(LinearSolverKind::Direct, *shell_.pattern(), shell_.held());
+  const BlockMatrix mass = shell_.mass_matrix();
+  const auto solver = make_linear_solver(LinearSolverKind::Direct, mass.pattern(), shell_.held());
   solver->factorise(mass);
   return solver->solve(prescribed_forces_ - shell_.internal_force(state_.x) - damping_force(state_.v));
 }

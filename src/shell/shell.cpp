@@ -2,6 +2,7 @@
 // A shell: reference configuration, properties and supports; assembles energy, force, tangent and mass.
 #include "shell/shell.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -94,29 +95,36 @@ void Shell::make_pattern()
   pattern_ = pattern;
 }
 
-/// Greedy: elements of a colour can add to shared arrays in any order with the same bits.
+/// Runs of consecutive elements, coloured greedily: runs of one colour share no vertex, so that they can add to shared
+/// arrays in any order with the same bits. Runs rather than elements keep the memory they touch together (measured).
 void Shell::colour_elements()
 {
+  constexpr int run_length = 64;
   std::vector<std::vector<char>> taken;  // per colour, per vertex
-  for (int e = 0; e < static_cast<int>(elements_.size()); ++e) {
-    const Element& element = elements_[e];
+  const int n = static_cast<int>(elements_.size());
+  for (int first = 0; first < n; first += run_length) {
+    const ElementRun run{first, std::min(first + run_length, n)};
     std::size_t colour = 0;
-    const auto clashes = [&](const std::vector<char>& vertices) {
-      for (int i = 0; i < element.n_nodes; ++i)
-        if (vertices[element.vertex[i]])
-          return true;
-      return false;
-    };
-    while (colour < taken.size() && clashes(taken[colour]))
+    while (colour < taken.size() && touches(run, taken[colour]))
       ++colour;
     if (colour == taken.size()) {
       taken.emplace_back(n_vertices(), 0);
       colours_.emplace_back();
     }
-    for (int i = 0; i < element.n_nodes; ++i)
-      taken[colour][element.vertex[i]] = 1;
-    colours_[colour].push_back(e);
+    for (int e = run.first; e < run.last; ++e)
+      for (const int v : elements_[e].vertex)
+        taken[colour][v] = 1;
+    colours_[colour].push_back(run);
   }
+}
+
+bool Shell::touches(ElementRun run, const std::vector<char>& vertices) const
+{
+  for (int e = run.first; e < run.last; ++e)
+    for (const int v : elements_[e].vertex)
+      if (vertices[v])
+        return true;
+  return false;
 }
 
 void Shell::make_mass()
@@ -154,11 +162,12 @@ void Shell::for_each_element(Body body) const
   // Below this a parallel region costs more than it saves (measured).
   constexpr int worth_threads = 2000;
 #pragma omp parallel if (reference_.n_triangles() > worth_threads)
-  for (const std::vector<int>& colour : colours_) {
+  for (const std::vector<ElementRun>& colour : colours_) {
     const int n = static_cast<int>(colour.size());
 #pragma omp for schedule(static)
-    for (int i = 0; i < n; ++i)
-      body(colour[i]);
+    for (int run = 0; run < n; ++run)
+      for (int e = colour[run].first; e < colour[run].last; ++e)
+        body(e);
   }
 }
 
@@ -224,6 +233,18 @@ void Shell::add_mass(double factor, BlockMatrix& K) const
 {
   for (int s = 0; s < mass_.nonZeros(); ++s)
     K.block(mass_slot_[s]).diagonal().array() += factor * mass_.valuePtr()[s];
+}
+
+BlockMatrix Shell::mass_matrix() const
+{
+  const int* start = mass_.outerIndexPtr();
+  const int* column = mass_.innerIndexPtr();
+  const auto pattern = std::make_shared<BlockPattern>(
+      BlockPattern{{start, start + n_vertices() + 1}, {column, column + mass_.nonZeros()}});
+  BlockMatrix M(pattern);
+  for (int s = 0; s < mass_.nonZeros(); ++s)
+    M.block(s).diagonal().setConstant(mass_.valuePtr()[s]);
+  return M;
 }
 
 void Shell::clear_held(Eigen::VectorXd& v) const

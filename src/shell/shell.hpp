@@ -51,6 +51,8 @@ class Shell {
   Eigen::VectorXd mass_times(const Eigen::VectorXd& v) const;
   /// K += factor * mass.
   void add_mass(double factor, BlockMatrix& K) const;
+  /// The mass alone, on its own smaller pattern.
+  BlockMatrix mass_matrix() const;
 
   /// Put zeros where the displacement is held.
   void clear_held(Eigen::VectorXd& v) const;
@@ -61,6 +63,12 @@ class Shell {
   int n_hinge_patches() const { return n_hinge_patches_; }
 
  private:
+  /// Elements first .. last - 1.
+  struct ElementRun {
+    int first;
+    int last;
+  };
+
   NodePositions gather(const Element& element, const Eigen::VectorXd& x) const;
   template <class Body>
   void for_each_element(Body body) const;
@@ -68,6 +76,7 @@ class Shell {
   void make_elements(const BendingOperator& bending);
   void make_pattern();
   void colour_elements();
+  bool touches(ElementRun run, const std::vector<char>& vertices) const;
   void make_mass();
 
   std::string name_;
@@ -82,7 +91,7 @@ class Shell {
   std::vector<Element> elements_;
   std::shared_ptr<const BlockPattern> pattern_;
   std::vector<std::array<int, max_nodes * max_nodes>> slots_;  ///< of each element's blocks in the pattern
-  std::vector<std::vector<int>> colours_;                      ///< elements of one colour share no vertex
+  std::vector<std::vector<ElementRun>> colours_;               ///< runs of one colour share no vertex
   Eigen::SparseMatrix<double, Eigen::RowMajor> mass_;          ///< n x n, the same for x, y and z
   std::vector<int> mass_slot_;                                 ///< of each entry of mass_ in the pattern
   double worst_conic_ = 0;

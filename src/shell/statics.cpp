@@ -2,9 +2,62 @@
 // Equilibrium of a shell under slowly growing loads.
 #include "shell/statics.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
 #include "core/error.hpp"
 
 namespace luff::shell {
+
+namespace {
+
+/// The three translations and three small rotations about the centre, columns of unit length.
+Eigen::Matrix<double, Eigen::Dynamic, 6> rigid_motions(const Shell& shell)
+{
+  const auto& X = shell.reference().vertices;
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& x : X)
+    centre += x / static_cast<double>(X.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 6> R(3 * X.size(), 6);
+  for (std::size_t v = 0; v < X.size(); ++v)
+    for (int d = 0; d < 3; ++d) {
+      R.block<3, 1>(3 * v, d) = Vec3::Unit(d);
+      R.block<3, 1>(3 * v, 3 + d) = Vec3::Unit(d).cross(X[v] - centre);
+    }
+  R.colwise().normalize();
+  return R;
+}
+
+/// A rigid motion meets no resistance when neither a held displacement nor a kept slope opposes it.
+void check_supported(const Shell& shell)
+{
+  BlockMatrix K(shell.pattern());
+  shell.add_tangent(shell.reference_positions(), K);
+  double largest = 0;
+  for (const double k : K.values())
+    largest = std::max(largest, std::abs(k));
+  const auto R = rigid_motions(shell);
+  Eigen::Matrix<double, 6, 6> resistance;
+  for (int j = 0; j < 6; ++j) {
+    Eigen::VectorXd opposed = K * Eigen::VectorXd(R.col(j)) / largest;
+    for (std::size_t i = 0; i < shell.held().size(); ++i)
+      opposed[static_cast<Eigen::Index>(i)] += shell.held()[i] * R(static_cast<Eigen::Index>(i), j);
+    resistance.col(j) = R.transpose() * opposed;
+  }
+  // Round-off of the products; the slope kept by a clamp of thickness h opposes with about (h/element)^2 / 100.
+  constexpr double none = 1e-14;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> modes(0.5 * (resistance + resistance.transpose()));
+  if (modes.eigenvalues()[0] < none)
+    fail_input(
+        "shell \"{}\" can move as a rigid body, so it has no static equilibrium; add a support (a hinged edge alone "
+        "lets it turn) or analyse its motion in time",
+        shell.name());
+}
+
+}  // namespace
 
 StaticStep solve_static(const Shell& shell, const std::vector<Load>& load_list, const StaticOptions& options,
                         const std::function<void(const StaticStep&)>& on_step)
@@ -12,6 +65,7 @@ StaticStep solve_static(const Shell& shell, const std::vector<Load>& load_list, 
   if (options.steps < 1)
     fail_input("shell \"{}\": static analysis with steps = {} must have at least 1", shell.name(), options.steps);
   const Loads loads(shell, load_list);
+  check_supported(shell);
   KeptTangent tangent(shell, options.linear_solver);
   StaticStep now;
   now.positions = shell.reference_positions();

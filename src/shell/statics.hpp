@@ -30,6 +30,7 @@ struct StaticStep {
 };
 
 /// Load stepping with full Newton steps; returns the last equilibrium, reports each.
+/// \throws InputError when a rigid motion of the shell meets no support.
 /// \throws RunError naming the step, load factor and place when there is no equilibrium or the shell folds.
 StaticStep solve_static(const Shell& shell, const std::vector<Load>& loads, const StaticOptions& options = {},
                         const std::function<void(const StaticStep&)>& on_step = {});

@@ -32,12 +32,7 @@ namespace {
 class Transcript : public vtkOutputWindow {
  public:
   static Transcript* New();
-  vtkTypeMacro(Transcript, vtkOutputWindow)
-
-      void DisplayText(const char* text) override
-  {
-    text_ += text;
-  }
+  void DisplayText(const char* text) override { text_ += text; }
   const std::string& text() const { return text_; }
 
  private:

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The curvature operator: zero on planes, few nodes, sound on degenerate patches, clear about hopeless ones.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "core/error.hpp"
+#include "shell/shell.hpp"
+#include "support/shells.hpp"
+
+namespace luff::shell {
+namespace {
+
+const Properties properties{.thickness = 0.01, .density = 1, .young = 1e6, .poisson = 0.3};
+
+TEST(BendingOperator, WeightsVanishOnAffineMaps)
+{
+  const surface::TriangleMesh mesh = test::sheet(1, 1, 6, 5);
+  const Shell shell(mesh, properties, {});
+  for (const Element& e : shell.elements()) {
+    Vec3 sum = Vec3::Zero();
+    Mat3 first = Mat3::Zero();
+    for (int i = 0; i < e.n_nodes; ++i) {
+      sum += e.H.col(i);
+      first += e.H.col(i) * mesh.vertices[e.vertex[i]].transpose();
+    }
+    EXPECT_LT(sum.norm(), 1e-12 * e.H.norm());
+    EXPECT_LT(first.norm(), 1e-12 * e.H.norm());
+  }
+}
+
+/// A triangle and the three around it, its six vertices on a circle; a ring of eight more triangles around them.
+surface::TriangleMesh hexagon_on_a_circle()
+{
+  surface::TriangleMesh mesh;
+  for (const double radius : {1.0, 2.0})
+    for (int i = 0; i < 6; ++i)
+      mesh.vertices.emplace_back(radius * std::cos(i * M_PI / 3), radius * std::sin(i * M_PI / 3), 0);
+  mesh.triangles = {{0, 2, 4}, {0, 1, 2}, {2, 3, 4}, {4, 5, 0}};
+  for (int i = 0; i < 6; ++i) {
+    const int j = (i + 1) % 6;
+    mesh.triangles.push_back({i, i + 6, j + 6});
+    mesh.triangles.push_back({i, j + 6, j});
+  }
+  return mesh;
+}
+
+// Six vertices of one patch on a circle leave its quadratic undetermined.
+TEST(BendingOperator, NearlyConicPatchFallsBackToHingesAndStaysRigid)
+{
+  surface::TriangleMesh mesh = hexagon_on_a_circle();
+  mesh.vertices[1] *= 1.01;
+  const Shell shell(mesh, properties, {});
+  EXPECT_GT(shell.worst_conic(), 50);
+  EXPECT_EQ(shell.worst_conic_triangle(), 0);
+  EXPECT_EQ(shell.n_hinge_patches(), 1);
+  const Eigen::VectorXd moved = 0.1 * test::random_vector(3 * mesh.n_vertices(), 3) + shell.reference_positions();
+  EXPECT_GT(shell.elastic_energy(moved), 0);
+  EXPECT_LT(shell.internal_force(shell.reference_positions()).norm(), 1e-13 * shell.internal_force(moved).norm());
+  Eigen::VectorXd tilted = shell.reference_positions();
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    tilted.segment<3>(3 * v) = Eigen::AngleAxisd(1.0, Vec3::UnitY()) * mesh.vertices[v];
+  EXPECT_LT(shell.elastic_energy(tilted), 1e-24 * shell.elastic_energy(moved));
+}
+
+TEST(BendingOperator, ExactlyConicPatchIsRefusedWithItsTriangle)
+{
+  try {
+    const Shell shell(hexagon_on_a_circle(), properties, {}, "flag");
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("shell \"flag\": triangle 0"), std::string::npos) << text;
+    EXPECT_NE(text.find("conic"), std::string::npos) << text;
+  }
+}
+
+TEST(BendingOperator, ReferenceFoldedByMoreThanARightAngleIsRefused)
+{
+  surface::TriangleMesh mesh = test::sheet(2, 1, 2, 1, surface::Pattern::Diagonal);
+  for (Vec3& X : mesh.vertices)
+    if (X.x() > 1)
+      X = Vec3(0.5, X.y(), 0.8);
+  try {
+    const Shell shell(mesh, properties, {}, "flag");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("more than 90 degrees"), std::string::npos) << error.what();
+  }
+}
+
+TEST(BendingOperator, StencilReachesTheNeighboursOfTheNeighbours)
+{
+  const Shell shell(test::sheet(1, 1, 8, 8), properties, {});
+  int full = 0;
+  for (const Element& e : shell.elements()) {
+    EXPECT_LE(e.n_nodes, 12);
+    full += e.n_nodes == 12;
+  }
+  EXPECT_GT(full, 0);
+}
+
+}  // namespace
+}  // namespace luff::shell
