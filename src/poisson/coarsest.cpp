@@ -6,7 +6,10 @@ namespace luff::poisson {
 namespace {
 
 /// Number of an unknown in the dense matrix: cells in their order, then extras.
-int number(Unknown x, int cells) { return is_cell(x) ? static_cast<int>(x) : cells + extra_number(x); }
+int number(Unknown x, int cells)
+{
+  return is_cell(x) ? static_cast<int>(x) : cells + extra_number(x);
+}
 
 }  // namespace
 

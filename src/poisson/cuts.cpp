@@ -195,7 +195,7 @@ class Coarsening {
     std::vector<char> open(members, 0);
     for (int m = 0; m < members; ++m) {
       const int cells = static_cast<int>(children_.size());
-      const double own = m >= cells               ? fine_cuts_.extras[extras[m - cells]].measure
+      const double own = m >= cells                    ? fine_cuts_.extras[extras[m - cells]].measure
                          : children_[m].cut != nullptr ? children_[m].cut->measure
                                                        : fine_.measure(children_[m].cell);
       measure[sets_.find(m)] += own;

@@ -19,10 +19,22 @@ inline constexpr Unknown no_unknown = std::numeric_limits<Unknown>::min();
 inline constexpr Unknown outside = no_unknown + 1;
 /// Stands for the n-th closed pocket: a part of the fluid that lies whole in one coarse cell, and needs no correction.
 inline constexpr Unknown first_pocket = no_unknown + 2;
-[[nodiscard]] constexpr bool is_pocket(Unknown x) { return x >= first_pocket && x < no_unknown / 2; }
-[[nodiscard]] constexpr bool is_cell(Unknown x) { return x >= 0; }
-[[nodiscard]] constexpr int extra_number(Unknown x) { return static_cast<int>(-1 - x); }
-[[nodiscard]] constexpr Unknown extra_unknown(int e) { return -1 - static_cast<Unknown>(e); }
+[[nodiscard]] constexpr bool is_pocket(Unknown x)
+{
+  return x >= first_pocket && x < no_unknown / 2;
+}
+[[nodiscard]] constexpr bool is_cell(Unknown x)
+{
+  return x >= 0;
+}
+[[nodiscard]] constexpr int extra_number(Unknown x)
+{
+  return static_cast<int>(-1 - x);
+}
+[[nodiscard]] constexpr Unknown extra_unknown(int e)
+{
+  return -1 - static_cast<Unknown>(e);
+}
 
 /// The three axes of a level, and the clean 7-point operator on it, without any blocked face:
 /// the coefficient of a face is area / distance = h h / d.
@@ -95,11 +107,11 @@ struct Cuts {
   std::vector<CutCell> cells;
   CellMap find;
   std::vector<Extra> extras;
-  std::vector<Link> links;  ///< sorted by (from, to, side)
+  std::vector<Link> links;                    ///< sorted by (from, to, side)
   std::vector<std::array<Unknown, 8>> parts;  ///< unknown that stands for each child of a split cell
   int pockets = 0;
-  std::vector<Unknown> parent_of_extra;       ///< on the next coarser level; filled by coarsen_cuts
-  std::vector<Interpolation> interpolation;   ///< from the next coarser level; filled by coarsen_cuts
+  std::vector<Unknown> parent_of_extra;      ///< on the next coarser level; filled by coarsen_cuts
+  std::vector<Interpolation> interpolation;  ///< from the next coarser level; filled by coarsen_cuts
 
   [[nodiscard]] const CutCell* at(Unknown key) const
   {
@@ -115,7 +127,8 @@ struct Cuts {
 /// The next coarser level.  Inside every coarse cell, fine unknowns joined by open links become one unknown; the
 /// largest is the cell's own, the others become extras, so that two sides of a sheet are never averaged before they
 /// really meet.  Parts without a link to the outside become pockets.
-[[nodiscard]] Cuts coarsen_cuts(Cuts& fine_cuts, const Box& fine, const Box& coarse, const std::array<Merge, 3>& merges);
+[[nodiscard]] Cuts coarsen_cuts(Cuts& fine_cuts, const Box& fine, const Box& coarse,
+                                const std::array<Merge, 3>& merges);
 
 /// The coarse unknown of a fine one, or the pocket that holds it.
 [[nodiscard]] Unknown parent(const Cuts& fine_cuts, const Box& fine, const Cuts& coarse_cuts, const Box& coarse,

@@ -132,8 +132,7 @@ void FluxCorrection::correct_axis(int axis, const View<double>& U, const View<co
   const std::vector<T> beyond(owned.extent(0), T{0});
   for_each_row(owned.faces(axis), [&](int begin, int end, int j, int k) {
     const int face = axis == 1 ? j : k;
-    const double c =
-        factor * inverse_distance(axis, face) * (axis == 1 ? grid_.width(2, k) : grid_.width(1, j));
+    const double c = factor * inverse_distance(axis, face) * (axis == 1 ? grid_.width(2, k) : grid_.width(1, j));
     const bool periodic = grid_.ranks().periodic(axis);
     const T* __restrict high = face == n && !periodic ? beyond.data() : p.row(j, k);
     const T* __restrict low = face == 0 && !periodic ? beyond.data() : axis == 1 ? p.row(j - 1, k) : p.row(j, k - 1);

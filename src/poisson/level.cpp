@@ -27,10 +27,15 @@ struct CleanRow {
     return row * (left_face[n] * left[n] + right_face[n] * right[n]) +
            width[n] * (cj_low * j_low[n] + cj_high * j_high[n] + ck_low * k_low[n] + ck_high * k_high[n]);
   }
-  [[nodiscard]] float diagonal(int n) const
+  /// A u at a cell of value `own`, by differences: exactly zero where u is constant, or modes that are nearly constant
+  /// on both sides of a narrow gap would drown in round-off.
+  [[nodiscard]] float image(int n, float own) const
   {
-    return row * ends[n] + width[n] * (cj_low + cj_high + ck_low + ck_high);
+    return row * (left_face[n] * (own - left[n]) + right_face[n] * (own - right[n])) +
+           width[n] * (cj_low * (own - j_low[n]) + cj_high * (own - j_high[n]) + ck_low * (own - k_low[n]) +
+                       ck_high * (own - k_high[n]));
   }
+  [[nodiscard]] float diagonal(int n) const { return row * ends[n] + width[n] * (cj_low + cj_high + ck_low + ck_high); }
 };
 
 }  // namespace
@@ -89,9 +94,9 @@ template <class Stencil, class Faces>
 CleanRow clean_row(const float* values, const Stencil& s, const Faces& c, const std::vector<float>& left,
                    const std::vector<float>& right, const std::vector<float>& ends, const std::vector<float>& width)
 {
-  return {left.data(),       right.data(),      ends.data(),       width.data(), values + s.left, values + s.right,
-          values + s.j_low,  values + s.j_high, values + s.k_low,  values + s.k_high,
-          c.row,             c.j_low,           c.j_high,          c.k_low,      c.k_high};
+  return {left.data(),      right.data(),      ends.data(),      width.data(),      values + s.left, values + s.right,
+          values + s.j_low, values + s.j_high, values + s.k_low, values + s.k_high, c.row,           c.j_low,
+          c.j_high,         c.k_low,           c.k_high};
 }
 
 }  // namespace
@@ -100,8 +105,8 @@ void Level::start_plane(int k)
 {
   for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
     const Stencil s = stencil(j, k, 0);
-    const CleanRow row = clean_row(u.data(), s, faces(j, k), left_[s.parity], right_[s.parity], ends_[s.parity],
-                                   width_[s.parity]);
+    const CleanRow row =
+        clean_row(u.data(), s, faces(j, k), left_[s.parity], right_[s.parity], ends_[s.parity], width_[s.parity]);
     const float* __restrict rhs = f.data() + s.own;
     float* __restrict out = u.data() + s.own;
 #pragma omp simd
@@ -122,8 +127,8 @@ void Level::relax_plane(int k, int colour)
 {
   for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
     const Stencil s = stencil(j, k, colour);
-    const CleanRow row = clean_row(u.data(), s, faces(j, k), left_[s.parity], right_[s.parity], ends_[s.parity],
-                                   width_[s.parity]);
+    const CleanRow row =
+        clean_row(u.data(), s, faces(j, k), left_[s.parity], right_[s.parity], ends_[s.parity], width_[s.parity]);
     const float* __restrict rhs = f.data() + s.own;
     float* __restrict out = u.data() + s.own;
 #pragma omp simd
@@ -139,17 +144,17 @@ void Level::residual_plane(int k, int colour)
 {
   for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
     const Stencil s = stencil(j, k, colour);
-    const CleanRow row = clean_row(u.data(), s, faces(j, k), left_[s.parity], right_[s.parity], ends_[s.parity],
-                                   width_[s.parity]);
+    const CleanRow row =
+        clean_row(u.data(), s, faces(j, k), left_[s.parity], right_[s.parity], ends_[s.parity], width_[s.parity]);
     const float* __restrict rhs = f.data() + s.own;
     const float* __restrict own = u.data() + s.own;
     float* __restrict out = r.data() + s.own;
 #pragma omp simd
     for (int n = 0; n < s.count; ++n)
-      out[n] = rhs[n] + row.neighbours(n) - row.diagonal(n) * own[n];
+      out[n] = rhs[n] - row.image(n, own[n]);
   }
   for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row)
-    r[row->place] = f[row->place] + neighbour_sum(*row, u.data()) - row->diagonal * u[row->place];
+    r[row->place] = f[row->place] - image(*row, u.data());
   exchange_.close_plane(r.data(), k, colour == 0 ? Colours::Red : Colours::Black);
 }
 
@@ -166,14 +171,14 @@ double Level::apply_plane(int k, const float* p, float* q) const
       float part = 0.0f;
 #pragma omp simd reduction(+ : part)
       for (int n = 0; n < s.count; ++n) {
-        const float value = row.diagonal(n) * own[n] - row.neighbours(n);
+        const float value = row.image(n, own[n]);
         out[n] = value;
         part += value * own[n];
       }
       sum += part;
     }
     for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row) {
-      const float value = row->diagonal * p[row->place] - neighbour_sum(*row, p);
+      const float value = image(*row, p);
       sum += static_cast<double>(p[row->place]) * (value - q[row->place]);
       q[row->place] = value;
     }
@@ -186,6 +191,15 @@ float Level::neighbour_sum(const Row& row, const float* values) const
   float sum = 0.0f;
   for (int e = row.begin; e < row.end; ++e)
     sum += entries_[e].coefficient * values[entries_[e].place];
+  return sum;
+}
+
+float Level::image(const Row& row, const float* values) const
+{
+  const float own = values[row.place];
+  float sum = row.grounded * own;
+  for (int e = row.begin; e < row.end; ++e)
+    sum += entries_[e].coefficient * (own - values[entries_[e].place]);
   return sum;
 }
 
@@ -208,7 +222,7 @@ void Level::relax_extras(Order order, bool from_zero)
 void Level::residual_extras()
 {
   for (const Row& row : extra_rows_)
-    r[row.place] = f[row.place] + neighbour_sum(row, u.data()) - row.diagonal * u[row.place];
+    r[row.place] = f[row.place] - image(row, u.data());
   share_extras(r.data());
 }
 
@@ -224,8 +238,7 @@ void Level::share_extras(float* values) const
 
 void Level::sum_over_ranks(Values& values) const
 {
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_FLOAT, MPI_SUM,
-                neighbourhood_->comm);
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_FLOAT, MPI_SUM, neighbourhood_->comm);
 }
 
 const Level::Row* Level::rows_begin(int k, int colour) const
@@ -281,10 +294,13 @@ bool Level::differs(const CutCell& cut) const
   return false;
 }
 
-void Level::finish_row(std::int32_t place, int begin, double diagonal, std::vector<Row>& rows)
+void Level::finish_row(std::int32_t place, int begin, double grounded, std::vector<Row>& rows)
 {
-  const auto d = static_cast<float>(diagonal);
-  rows.push_back({place, begin, static_cast<int>(entries_.size()), d, d > 0.0f ? 1.0f / d : 0.0f});
+  double diagonal = grounded;
+  for (std::size_t e = begin; e < entries_.size(); ++e)
+    diagonal += entries_[e].coefficient;
+  rows.push_back({place, begin, static_cast<int>(entries_.size()), static_cast<float>(grounded),
+                  diagonal > 0.0 ? static_cast<float>(1.0 / diagonal) : 0.0f});
 }
 
 void Level::add_cell_row(const Cuts& cuts, const CutCell& cut)
@@ -293,33 +309,31 @@ void Level::add_cell_row(const Cuts& cuts, const CutCell& cut)
   if (links.empty() && !differs(cut))
     return;
   const int begin = static_cast<int>(entries_.size());
-  double diagonal = 0.0;
   for (int side = 0; side < 6; ++side) {
     const double c = cut.coefficient[side];
-    diagonal += c;
     if (c > 0.0)
       entries_.push_back({static_cast<std::int32_t>(place_beside(cuts, cut.cell, side, 0)), static_cast<float>(c)});
   }
   for (const Link& link : links) {
-    diagonal += link.coefficient;
     entries_.push_back({static_cast<std::int32_t>(place_beside(cuts, cut.cell, link.side, link.to)),
                         static_cast<float>(link.coefficient)});
   }
   const Index3& c = cut.cell;
-  finish_row(static_cast<std::int32_t>(layout_.index(c[0], c[1], c[2])), begin, diagonal, rows_);
+  finish_row(static_cast<std::int32_t>(layout_.index(c[0], c[1], c[2])), begin, /*grounded=*/0.0, rows_);
 }
 
 void Level::add_extra_row(const Cuts& cuts, int e)
 {
   const int begin = static_cast<int>(entries_.size());
-  double diagonal = 0.0;
+  double grounded = 0.0;
   for (const Link& link : cuts.links_from(extra_unknown(e))) {
-    diagonal += link.coefficient;
-    if (link.to != outside)
+    if (link.to == outside)
+      grounded += link.coefficient;
+    else
       entries_.push_back({static_cast<std::int32_t>(place_beside(cuts, cuts.extras[e].cell, link.side, link.to)),
                           static_cast<float>(link.coefficient)});
   }
-  finish_row(static_cast<std::int32_t>(layout_.size + e), begin, diagonal, extra_rows_);
+  finish_row(static_cast<std::int32_t>(layout_.size + e), begin, grounded, extra_rows_);
 }
 
 void Level::set_cuts(const Cuts& cuts)

@@ -62,7 +62,8 @@ class Level {
   struct Row {
     std::int32_t place;
     int begin, end;  // entries
-    float diagonal, inverse;
+    float grounded;  // coefficient to p = 0 beyond a Dirichlet side, where that is no halo cell
+    float inverse;   // 1 / diagonal, 0 for an isolated cell
   };
   struct Stencil {
     std::ptrdiff_t own, left, right, j_low, j_high, k_low, k_high;
@@ -76,12 +77,13 @@ class Level {
   [[nodiscard]] Faces faces(int j, int k) const;
   void add_cell_row(const Cuts& cuts, const CutCell& cut);
   void add_extra_row(const Cuts& cuts, int e);
-  void finish_row(std::int32_t place, int begin, double diagonal, std::vector<Row>& rows);
+  void finish_row(std::int32_t place, int begin, double grounded, std::vector<Row>& rows);
   [[nodiscard]] std::ptrdiff_t place_beside(const Cuts& cuts, const Index3& cell, int side, Unknown x) const;
   [[nodiscard]] bool differs(const CutCell& cut) const;
   [[nodiscard]] const Row* rows_begin(int k, int colour) const;
   [[nodiscard]] const Row* rows_end(int k, int colour) const;
   [[nodiscard]] float neighbour_sum(const Row& row, const float* values) const;
+  [[nodiscard]] float image(const Row& row, const float* values) const;
 
   Box box_;
   Layout layout_;

@@ -8,7 +8,10 @@ namespace luff::poisson {
 
 namespace {
 
-double side_distance(SideCondition side, double h) { return side == SideCondition::Dirichlet ? 2.0 / h : 0.0; }
+double side_distance(SideCondition side, double h)
+{
+  return side == SideCondition::Dirichlet ? 2.0 / h : 0.0;
+}
 
 std::vector<double> inverse_distances(const Line& line)
 {

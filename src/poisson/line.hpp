@@ -15,10 +15,10 @@ struct Line {
   bool periodic = false;
   std::array<SideCondition, 2> sides{SideCondition::Neumann, SideCondition::Neumann};
   std::vector<double> h;          ///< widths, n
-  std::vector<double> inverse_d;  ///< per face 0 ... n: 1 / distance between the centres beside it, or between centre and
-                                  ///< side where p = 0 holds; 0 where no gradient acts
-  std::vector<double> measure;    ///< finest cells in each cell, n
-  std::vector<int> splits;        ///< first cells of the blocks of ranks, and n
+  std::vector<double> inverse_d;  ///< per face 0 ... n: 1 / distance between the centres beside it, or between centre
+                                  ///< and side where p = 0 holds; 0 where no gradient acts
+  std::vector<double> measure;  ///< finest cells in each cell, n
+  std::vector<int> splits;      ///< first cells of the blocks of ranks, and n
 
   /// Index of the neighbour of cell i on a side; -1 beyond the domain.
   [[nodiscard]] int neighbour(int i, int side) const
@@ -39,11 +39,11 @@ struct Line {
 ///
 ///   u_i = U_p + w_i (U_{p + towards_i} - U_p),   p = parent_i,   w_i = |x_i - X_p| / |X_{p + towards_i} - X_p|.
 struct Merge {
-  std::vector<int> parent;    ///< n
-  std::vector<int> first;     ///< N + 1: first child of every coarse cell, and n
-  std::vector<int> towards;   ///< n: -1, 1, or 0 for a cell that stays alone
-  std::vector<double> weight; ///< n
-  std::vector<double> scale;  ///< N + 1: fine over coarse distance across a coarse face
+  std::vector<int> parent;     ///< n
+  std::vector<int> first;      ///< N + 1: first child of every coarse cell, and n
+  std::vector<int> towards;    ///< n: -1, 1, or 0 for a cell that stays alone
+  std::vector<double> weight;  ///< n
+  std::vector<double> scale;   ///< N + 1: fine over coarse distance across a coarse face
 };
 
 /// Pairs of neighbouring cells merge when together they are no wider than `target` and no block of ranks ends between.

@@ -10,11 +10,14 @@ namespace luff::poisson {
 namespace {
 
 constexpr int sweeps = 2;
-constexpr double coarsest_cells = 100;     // dense inverse of at most this size
-constexpr double shared_cells = 20000;     // below this, work is repeated on every rank rather than shared out
-constexpr double smallest_reduction = 1.4; // a level must be smaller than the one before by this factor
+constexpr double coarsest_cells = 100;      // dense inverse of at most this size
+constexpr double shared_cells = 20000;      // below this, work is repeated on every rank rather than shared out
+constexpr double smallest_reduction = 1.4;  // a level must be smaller than the one before by this factor
 
-double product(const Index3& n) { return static_cast<double>(n[0]) * n[1] * n[2]; }
+double product(const Index3& n)
+{
+  return static_cast<double>(n[0]) * n[1] * n[2];
+}
 
 std::array<std::vector<int>, 3> merge_all(const Box& box, double width, bool keep_blocks)
 {
@@ -43,8 +46,9 @@ std::array<std::vector<int>, 3> next_merges(const Box& box, double& width, bool 
 /// Place of a cell in a list of the cells of a box, i fastest.
 std::ptrdiff_t position(const IndexBox& box, const Index3& c)
 {
-  return (c[0] - box.lo[0]) + static_cast<std::ptrdiff_t>(box.extent(0)) *
-                                  ((c[1] - box.lo[1]) + static_cast<std::ptrdiff_t>(box.extent(1)) * (c[2] - box.lo[2]));
+  return (c[0] - box.lo[0]) +
+         static_cast<std::ptrdiff_t>(box.extent(0)) *
+             ((c[1] - box.lo[1]) + static_cast<std::ptrdiff_t>(box.extent(1)) * (c[2] - box.lo[2]));
 }
 
 IndexBox block_of(const Box& fine, const Box& coarse, const IndexBox& owned)
@@ -89,8 +93,7 @@ void Multigrid::add_levels(const Neighbourhood& neighbourhood)
     if (cells == before && !fine.distributed())
       return;
     const bool share = fine.distributed() && cells > shared_cells && cells < before;
-    const IndexBox block =
-        share ? block_of(box, coarse, fine.layout().owned) : IndexBox{{0, 0, 0}, coarse.cells()};
+    const IndexBox block = share ? block_of(box, coarse, fine.layout().owned) : IndexBox{{0, 0, 0}, coarse.cells()};
     levels_.push_back(std::make_unique<Level>(coarse, block, share ? &neighbourhood : nullptr));
     transfers_.push_back(std::make_unique<Transfer>(fine, *levels_.back(), std::move(merges)));
   }
@@ -101,8 +104,7 @@ void Multigrid::set_blocked(std::span<const FaceIndex> faces)
   cuts_.clear();
   cuts_.push_back(cuts_of_blocked_faces(levels_[0]->box(), faces));
   for (std::size_t l = 0; l < transfers_.size(); ++l)
-    cuts_.push_back(
-        coarsen_cuts(cuts_[l], levels_[l]->box(), levels_[l + 1]->box(), transfers_[l]->merges()));
+    cuts_.push_back(coarsen_cuts(cuts_[l], levels_[l]->box(), levels_[l + 1]->box(), transfers_[l]->merges()));
   for (std::size_t l = 0; l < levels_.size(); ++l)
     levels_[l]->set_cuts(cuts_[l]);
   for (std::size_t l = 0; l < transfers_.size(); ++l)
@@ -110,7 +112,8 @@ void Multigrid::set_blocked(std::span<const FaceIndex> faces)
   coarsest_.factorise(*levels_.back(), cuts_.back());
 }
 
-/// Coarsening only ever joins what is connected, so components of the coarsest level and pockets are those of the fluid.
+/// Coarsening only ever joins what is connected, so components of the coarsest level and pockets are those of the
+/// fluid.
 void Multigrid::label_components(std::vector<int>& component, std::vector<char>& floating) const
 {
   component.clear();

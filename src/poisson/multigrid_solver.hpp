@@ -43,9 +43,9 @@ class MultigridSolver final : public PressureSolver {
   HaloExchange halo_;
   Field<double> net_;
   Field<float> correction_;
-  std::vector<FaceIndex> blocked_;        // of this rank
-  std::vector<int> component_;            // see Multigrid::label_components
-  std::vector<char> floating_;            // per component
+  std::vector<FaceIndex> blocked_;  // of this rank
+  std::vector<int> component_;      // see Multigrid::label_components
+  std::vector<char> floating_;      // per component
 };
 
 }  // namespace luff::poisson

@@ -79,18 +79,17 @@ void Transfer::set_cuts(const Cuts& fine_cuts, const Cuts& coarse_cuts)
   for (const Interpolation& p : fine_cuts.interpolation) {
     if (!reads(fine_cuts, p.fine))
       continue;
-    const Index3 C =
-        is_cell(p.coarse) ? coarse_.box().cell(p.coarse) : coarse_cuts.extras[extra_number(p.coarse)].cell;
+    const Index3 C = is_cell(p.coarse) ? coarse_.box().cell(p.coarse) : coarse_cuts.extras[extra_number(p.coarse)].cell;
     if (home_.contains(C))
       restriction_.push_back({static_cast<std::int32_t>(fine_.place(fine_cuts, p.fine)),
                               static_cast<std::int32_t>(coarse_.place(coarse_cuts, p.coarse)),
                               static_cast<float>(p.weight)});
     const bool extra = !is_cell(p.fine);
     if (extra || fine_.owns(fine_cuts, p.fine))
-      by_plane.push_back({extra ? planes : fine_.box().cell(p.fine)[2] - owned.lo[2],
-                          {static_cast<std::int32_t>(fine_.place(fine_cuts, p.fine)),
-                           static_cast<std::int32_t>(coarse_.place(coarse_cuts, p.coarse)),
-                           static_cast<float>(p.weight)}});
+      by_plane.push_back(
+          {extra ? planes : fine_.box().cell(p.fine)[2] - owned.lo[2],
+           {static_cast<std::int32_t>(fine_.place(fine_cuts, p.fine)),
+            static_cast<std::int32_t>(coarse_.place(coarse_cuts, p.coarse)), static_cast<float>(p.weight)}});
   }
   std::stable_sort(by_plane.begin(), by_plane.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   first_of_plane_.assign(planes + 2, 0);

@@ -44,14 +44,14 @@ class Transfer {
   Level& fine_;
   Level& coarse_;
   std::array<Merge, 3> merges_;
-  IndexBox home_;                                         // coarse cells whose children this rank owns
-  bool regular_ = false;                                  // coarse cell I holds the cells 2 I and 2 I + 1 of a row
-  std::array<std::vector<float>, 2> weight_;              // per parity of i, with one more on each side
-  std::array<std::vector<int>, 2> parent_, other_;        // per parity of i
-  std::vector<float> weight_left_, weight_right_;         // by i: w towards -1, towards 1
-  std::vector<int> first_, last_;                         // by I
-  std::vector<Weight> restriction_;                       // by coarse owner
-  std::vector<Weight> prolongation_;                      // by plane of the fine cell, extras last
+  IndexBox home_;                                   // coarse cells whose children this rank owns
+  bool regular_ = false;                            // coarse cell I holds the cells 2 I and 2 I + 1 of a row
+  std::array<std::vector<float>, 2> weight_;        // per parity of i, with one more on each side
+  std::array<std::vector<int>, 2> parent_, other_;  // per parity of i
+  std::vector<float> weight_left_, weight_right_;   // by i: w towards -1, towards 1
+  std::vector<int> first_, last_;                   // by I
+  std::vector<Weight> restriction_;                 // by coarse owner
+  std::vector<Weight> prolongation_;                // by plane of the fine cell, extras last
   std::vector<int> first_of_plane_;
 };
 
