@@ -207,6 +207,8 @@ void Level::relax_extras(Order order, bool from_zero)
 {
   if (extras_ == 0)
     return;
+  if (from_zero)
+    std::fill_n(u.data() + layout_.size, extras_, 0.0f);
   const int n = static_cast<int>(extra_rows_.size());
   for (int t = 0; t < n; ++t) {
     const Row& row = extra_rows_[order == Order::Forward ? t : n - 1 - t];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "poisson/multigrid_solver.hpp"
 
+#include "parallel/denormals.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -48,6 +50,7 @@ MultigridSolver::MultigridSolver(const grid::Grid& grid, const SideConditions& s
       net_(grid.owned()),
       correction_(grid.owned())
 {
+  flush_denormals();
   label_components();
 }
 
