@@ -82,8 +82,8 @@ Sides share_cells(double h, double low_length, double high_length, int cells)
 std::vector<double> face_coordinates(const AxisSpec& spec, const std::string& name)
 {
   if (!(spec.to > spec.from) || spec.cells < 1)
-    fail_input("grid.{}: from = {}, to = {}, cells = {}: needs from < to and at least one cell", name, spec.from, spec.to,
-               spec.cells);
+    fail_input("grid.{}: from = {}, to = {}, cells = {}: needs from < to and at least one cell", name, spec.from,
+               spec.to, spec.cells);
   if (!spec.refine)
     return uniform_faces(spec);
   const Refinement& r = *spec.refine;
@@ -95,15 +95,18 @@ std::vector<double> face_coordinates(const AxisSpec& spec, const std::string& na
                spec.cells, inside, r.from, r.to, r.spacing);
   const Sides sides = share_cells(h, r.from - spec.from, spec.to - r.to, outside);
   const double largest = std::max(sides.low_ratio, sides.high_ratio);
-  const double smallest = std::min(sides.low_ratio, sides.high_ratio);
+  // Width of the outermost cells over the spacing inside.
+  const double finest = std::min(std::pow(sides.low_ratio, sides.low), std::pow(sides.high_ratio, sides.high));
   if (!(largest <= largest_growth))
-    fail_input("grid.{}.cells = {} is too few: outside the refined stretch each cell would be {:.2f} times its neighbour "
-               "(at most {}); give more cells, a coarser spacing or a smaller domain",
-               name, spec.cells, largest, largest_growth);
-  if (smallest < 1.0 / largest_growth)
-    fail_input("grid.{}.cells = {} is too many: the cells outside the refined stretch would be finer than inside "
-               "(ratio {:.2f}); give fewer cells or a finer spacing",
-               name, spec.cells, smallest);
+    fail_input(
+        "grid.{}.cells = {} is too few: outside the refined stretch each cell would be {:.2f} times its neighbour "
+        "(at most {}); give more cells, a coarser spacing or a smaller domain",
+        name, spec.cells, largest, largest_growth);
+  if (finest < 1.0 / largest_growth)
+    fail_input(
+        "grid.{}.cells = {} is too many: the cells outside the refined stretch would be finer than inside "
+        "(ratio {:.2f}); give fewer cells or a finer spacing",
+        name, spec.cells, smallest);
 
   std::vector<double> x(spec.cells + 1);
   for (int i = 0; i <= inside; ++i)
