@@ -105,8 +105,8 @@ std::vector<double> face_coordinates(const AxisSpec& spec, const std::string& na
   if (finest < 1.0 / largest_growth)
     fail_input(
         "grid.{}.cells = {} is too many: the cells outside the refined stretch would be finer than inside "
-        "(ratio {:.2f}); give fewer cells or a finer spacing",
-        name, spec.cells, smallest);
+        "({:.2g} of the spacing); give fewer cells or a finer spacing",
+        name, spec.cells, finest);
 
   std::vector<double> x(spec.cells + 1);
   for (int i = 0; i <= inside; ++i)
