@@ -188,7 +188,7 @@ class Builder {
   }
 
   /// kappa = sum_k 2 theta_k/(h_k + h'_k) m (x) m with the hinge angle theta_k from the two heights over edge k
-  /// (grinspun_2006_computing, weights by height), written as bubble coefficients.
+  /// [grinspun_2006_computing], weights by height, written as bubble coefficients.
   static Mat36 hinge_coefficients(const std::array<Vec3, 6>& Y, const Patch& p)
   {
     Mat36 H = Mat36::Zero();
@@ -312,7 +312,7 @@ class Builder {
   {
     const Vec3 at = surface::centroid(mesh_, t);
     fail_input(
-        "shell \"{}\": triangles {} and {} at ({}, {}, {}) fold by more than 90 degrees over their common edge; "
+        "shell '{}': triangles {} and {} at ({}, {}, {}) fold by more than 90 degrees over their common edge; "
         "refine the mesh there",
         shell_, t, topology_.neighbour[t][k], at.x(), at.y(), at.z());
   }
@@ -321,7 +321,7 @@ class Builder {
   {
     const Vec3 at = surface::centroid(mesh_, t);
     fail_input(
-        "shell \"{}\": triangle {} at ({}, {}, {}) and its neighbours lie on a conic (q = {:.1e}, at most {:.0e}), "
+        "shell '{}': triangle {} at ({}, {}, {}) and its neighbours lie on a conic (q = {:.1e}, at most {:.0e}), "
         "so no curvature can be found; move a vertex or refine there",
         shell_, t, at.x(), at.y(), at.z(), conic, conic_rejected);
   }

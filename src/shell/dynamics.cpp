@@ -2,6 +2,8 @@
 // Motion of a shell in time.
 #include "shell/dynamics.hpp"
 
+#include <cmath>
+
 #include "core/error.hpp"
 
 namespace luff::shell {
@@ -15,7 +17,7 @@ Dynamics::Dynamics(const Shell& shell, const std::vector<Load>& loads, DynamicsO
       tangent_(shell, options.linear_solver)
 {
   if (!(shell_.properties().density > 0))
-    fail_input("shell \"{}\": density = {} must be greater than 0 to move in time", shell_.name(),
+    fail_input("shell '{}': density = {} must be greater than 0 to move in time", shell_.name(),
                shell_.properties().density);
   state_.x = shell_.reference_positions();
   state_.v = v0.size() > 0 ? v0 : Eigen::VectorXd::Zero(state_.x.size());
@@ -23,7 +25,7 @@ Dynamics::Dynamics(const Shell& shell, const std::vector<Load>& loads, DynamicsO
   shell_.clear_held(state_.v);
   state_.t = t0;
   freeze_damping(state_.x);
-  prescribed_forces_ = loads_.force(state_.x, t0);
+  prescribed_forces_ = loads_.at(t0).force(state_.x);
   fluid_forces_ = Eigen::VectorXd::Zero(state_.x.size());
   state_.a = consistent_acceleration();
   ledger_.kinetic = 0.5 * state_.v.dot(shell_.mass_times(state_.v));
@@ -43,12 +45,12 @@ void Dynamics::restore(const Checkpoint& checkpoint)
   linearisation_ = checkpoint.linearisation;
   step_ = checkpoint.step;
   slow_ = false;
-  prescribed_forces_ = loads_.force(state_.x, state_.t);
+  prescribed_forces_ = loads_.at(state_.t).force(state_.x);
   tangent_.valid = linearisation_.x.size() > 0;
   if (tangent_.valid) {
     freeze_damping(linearisation_.x_frozen);
     tangent_.K.set_zero();
-    assemble_tangent(linearisation_.x, linearisation_.t, linearisation_.dt, tangent_.K);
+    assemble_tangent(linearisation_.x, loads_.at(linearisation_.t), linearisation_.dt, tangent_.K);
     tangent_.solver->factorise(tangent_.K);
   }
   freeze_damping(state_.x);
@@ -101,14 +103,14 @@ Kinematics Dynamics::kinematics(const Eigen::VectorXd& positions, double dt) con
 }
 
 /// K + 4/dt^2 M + 2/dt D - d f_ext/dx
-void Dynamics::assemble_tangent(const Eigen::VectorXd& x, double t, double dt, BlockMatrix& K) const
+void Dynamics::assemble_tangent(const Eigen::VectorXd& x, const LoadsAtTime& loads, double dt, BlockMatrix& K) const
 {
   const Properties& p = shell_.properties();
   shell_.add_tangent(x, K);
   shell_.add_mass(4 / (dt * dt) + 2 / dt * p.damping_mass, K);
   if (p.damping_stiffness > 0)
     K.add(2 / dt * p.damping_stiffness, material_stiffness_);
-  loads_.subtract_stiffness(x, t, 1, K);
+  loads.subtract_stiffness(x, 1, K);
 }
 
 Dynamics::Trial Dynamics::solve(double t_new, double dt, const Eigen::VectorXd& fluid_forces,
@@ -116,17 +118,19 @@ Dynamics::Trial Dynamics::solve(double t_new, double dt, const Eigen::VectorXd& 
 {
   ensure(dt > 0 && fluid_forces.size() == state_.x.size() && guess.size() == state_.x.size(),
          "a step needs dt > 0 and three numbers per vertex");
-  if (dt != linearisation_.dt)
+  // The inertia in the tangent goes with 1/dt^2: beyond this change it would slow Newton's method down.
+  constexpr double largest_change = 0.05;
+  if (std::abs(dt - linearisation_.dt) > largest_change * dt)
     tangent_.valid = false;
+  const LoadsAtTime loads = loads_.at(t_new);
   const Equilibrium equilibrium{
       .residual = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
         const Kinematics k = kinematics(x, dt);
-        return loads_.force(x, t_new) + fluid_forces - shell_.internal_force(x) - shell_.mass_times(k.a) -
-               damping_force(k.v);
+        return loads.force(x) + fluid_forces - shell_.internal_force(x) - shell_.mass_times(k.a) - damping_force(k.v);
       },
       .tangent =
           [&](const Eigen::VectorXd& x, BlockMatrix& K) {
-            assemble_tangent(x, t_new, dt, K);
+            assemble_tangent(x, loads, dt, K);
             linearisation_ = {x, state_.x, t_new, dt};
           },
   };
@@ -144,7 +148,7 @@ Folds Dynamics::accept(const Eigen::VectorXd& positions, double t_new, double dt
 {
   const Folds report = check_folds(shell_, positions, when(t_new));
   const Kinematics k = kinematics(positions, dt);
-  const Eigen::VectorXd prescribed = loads_.force(positions, t_new);
+  const Eigen::VectorXd prescribed = loads_.at(t_new).force(positions);
   const Eigen::VectorXd moved = positions - state_.x;
   ledger_.external_work += 0.5 * moved.dot(prescribed_forces_ + fluid_forces_ + prescribed + fluid_forces);
   ledger_.damping_work += 0.5 * moved.dot(damping_force(state_.v + k.v));

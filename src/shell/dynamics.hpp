@@ -59,7 +59,7 @@ struct Checkpoint {
 };
 
 /// Solves M a + D v + f_int(x) = f_ext(x, t) + f_fluid step by step, with Rayleigh damping D = f_m M + f_k K_mat(x_n)
-/// frozen in the step. Newmark (newmark_1959_method):
+/// frozen in the step. Newmark [newmark_1959_method]:
 ///
 ///   a = 4/dt^2 (x - x_n - dt v_n) - a_n,   v = v_n + dt/2 (a_n + a).
 ///
@@ -104,7 +104,7 @@ class Dynamics {
   Eigen::VectorXd consistent_acceleration() const;
   Eigen::VectorXd damping_force(const Eigen::VectorXd& v) const;
   void freeze_damping(const Eigen::VectorXd& x);
-  void assemble_tangent(const Eigen::VectorXd& x, double t, double dt, BlockMatrix& K) const;
+  void assemble_tangent(const Eigen::VectorXd& x, const LoadsAtTime& loads, double dt, BlockMatrix& K) const;
   std::string when(double t_new) const;
 
   const Shell& shell_;

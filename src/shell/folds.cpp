@@ -56,7 +56,7 @@ Folds check_folds(const Shell& shell, const Eigen::VectorXd& x, const std::strin
     const auto [a, b] = surface::edge_vertices(shell.reference().triangles[found.at.triangle], found.at.edge);
     const Vec3 at = 0.5 * (x.segment<3>(3 * a) + x.segment<3>(3 * b));
     fail_run(
-        "{}: shell \"{}\" folds by {:.0f} degrees over the edge of vertices {} and {} at ({:.6g}, {:.6g}, {:.6g}), "
+        "{}: shell '{}' folds by {:.0f} degrees over the edge of vertices {} and {} at ({:.6g}, {:.6g}, {:.6g}), "
         "more than the {:.0f} its triangles can follow; refine the mesh there or take smaller steps",
         when, shell.name(), found.largest, a, b, at.x(), at.y(), at.z(), limit);
   }

@@ -140,7 +140,7 @@ class SparseCholesky : public LinearSolver {
   cholmod_dense* work_e_ = nullptr;
 };
 
-/// Conjugate gradients with the inverse 3 x 3 diagonal blocks (hestenes_1952_methods).
+/// Conjugate gradients with the inverse 3 x 3 diagonal blocks [hestenes_1952_methods].
 class BlockJacobiCg : public LinearSolver {
  public:
   BlockJacobiCg(const BlockPattern& pattern, const std::vector<char>& held) : held_(held), inverse_(pattern.n_rows()) {}

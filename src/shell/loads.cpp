@@ -80,10 +80,10 @@ Loads::Loads(const Shell& shell, std::vector<Load> loads) : shell_(shell), loads
 void Loads::check(const PointForce& load) const
 {
   if (load.vertices.empty())
-    fail_input("shell \"{}\": a force selects no vertex; widen its \"where\"", shell_.name());
+    fail_input("shell '{}': a force selects no vertex; widen its 'where'", shell_.name());
   for (const int v : load.vertices)
     if (v < 0 || v >= shell_.n_vertices())
-      fail_input("shell \"{}\": a force acts on vertex {}, not in 0..{}", shell_.name(), v, shell_.n_vertices() - 1);
+      fail_input("shell '{}': a force acts on vertex {}, not in 0..{}", shell_.name(), v, shell_.n_vertices() - 1);
 }
 
 void Loads::check_triangles(std::vector<int>& triangles) const
@@ -95,68 +95,74 @@ void Loads::check_triangles(std::vector<int>& triangles) const
   }
   for (const int t : triangles)
     if (t < 0 || t >= n)
-      fail_input("shell \"{}\": a load acts on triangle {}, not in 0..{}", shell_.name(), t, n - 1);
+      fail_input("shell '{}': a load acts on triangle {}, not in 0..{}", shell_.name(), t, n - 1);
 }
 
-Eigen::VectorXd Loads::force(const Eigen::VectorXd& x, double t) const
+LoadsAtTime Loads::at(double t) const
 {
-  Eigen::VectorXd f = weight_;
+  LoadsAtTime now;
+  now.dead_ = weight_;
   for (std::size_t l = 0; l < loads_.size(); ++l) {
     if (const auto* point = std::get_if<PointForce>(&loads_[l]))
-      for (std::size_t i = 0; i < point->vertices.size(); ++i) {
-        const int v = point->vertices[i];
-        f.segment<3>(3 * v) += shares_[l][i] * point->force(shell_.reference().vertices[v], t);
-      }
+      add(*point, shares_[l], t, now);
     else if (const auto* traction = std::get_if<Traction>(&loads_[l]))
-      add(*traction, t, f);
+      add(*traction, t, now);
     else
-      add(std::get<Pressure>(loads_[l]), x, t, f);
+      add(std::get<Pressure>(loads_[l]), t, now);
   }
-  return f;
+  return now;
 }
 
-void Loads::add(const Traction& load, double t, Eigen::VectorXd& f) const
+void Loads::add(const PointForce& load, const std::vector<double>& shares, double t, LoadsAtTime& now) const
+{
+  for (std::size_t i = 0; i < load.vertices.size(); ++i) {
+    const int v = load.vertices[i];
+    now.dead_.segment<3>(3 * v) += shares[i] * load.force(shell_.reference().vertices[v], t);
+  }
+}
+
+void Loads::add(const Traction& load, double t, LoadsAtTime& now) const
 {
   const auto& mesh = shell_.reference();
   for (const int e : load.triangles) {
     const Vec3 third = shell_.elements()[e].area / 3 * load.traction(surface::centroid(mesh, e), t);
     for (const int v : mesh.triangles[e])
-      f.segment<3>(3 * v) += third;
+      now.dead_.segment<3>(3 * v) += third;
   }
 }
 
-void Loads::add(const Pressure& load, const Eigen::VectorXd& x, double t, Eigen::VectorXd& f) const
+void Loads::add(const Pressure& load, double t, LoadsAtTime& now) const
 {
   const auto& mesh = shell_.reference();
-  for (const int e : load.triangles) {
-    const auto [a, b, c] = mesh.triangles[e];
+  for (const int e : load.triangles)
+    now.pressed_.push_back({mesh.triangles[e], load.pressure(surface::centroid(mesh, e), t)});
+}
+
+/// f_i = p/6 (x2 - x1) x (x3 - x1) at every corner, on top of the dead forces.
+Eigen::VectorXd LoadsAtTime::force(const Eigen::VectorXd& x) const
+{
+  Eigen::VectorXd f = dead_;
+  for (const Pressed& triangle : pressed_) {
+    const auto [a, b, c] = triangle.corner;
     const Vec3 twice_area =
         (x.segment<3>(3 * b) - x.segment<3>(3 * a)).cross(x.segment<3>(3 * c) - x.segment<3>(3 * a));
-    const Vec3 sixth = load.pressure(surface::centroid(mesh, e), t) / 6 * twice_area;
-    for (const int v : mesh.triangles[e])
-      f.segment<3>(3 * v) += sixth;
+    for (const int v : triangle.corner)
+      f.segment<3>(3 * v) += triangle.pressure / 6 * twice_area;
   }
+  return f;
 }
 
 /// d f_i / d x_j = p/6 [d_j]x for every corner i, d_j the edge opposite corner j; half of it and of its transpose.
-void Loads::subtract_stiffness(const Eigen::VectorXd& x, double t, double factor, BlockMatrix& K) const
+void LoadsAtTime::subtract_stiffness(const Eigen::VectorXd& x, double factor, BlockMatrix& K) const
 {
-  const auto& mesh = shell_.reference();
-  for (const Load& load : loads_) {
-    const auto* pressure = std::get_if<Pressure>(&load);
-    if (!pressure)
-      continue;
-    for (const int e : pressure->triangles) {
-      const auto& corner = mesh.triangles[e];
-      const double p = factor * pressure->pressure(surface::centroid(mesh, e), t);
-      std::array<Mat3, 3> derivative;
+  for (const auto& [corner, pressure] : pressed_) {
+    std::array<Mat3, 3> derivative;
+    for (int j = 0; j < 3; ++j)
+      derivative[j] = factor * pressure / 6 *
+                      cross_matrix(x.segment<3>(3 * corner[(j + 2) % 3]) - x.segment<3>(3 * corner[(j + 1) % 3]));
+    for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        derivative[j] =
-            p / 6 * cross_matrix(x.segment<3>(3 * corner[(j + 2) % 3]) - x.segment<3>(3 * corner[(j + 1) % 3]));
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          K.block(K.pattern().slot(corner[i], corner[j])) -= 0.5 * (derivative[j] + derivative[i].transpose());
-    }
+        K.block(K.pattern().slot(corner[i], corner[j])) -= 0.5 * (derivative[j] + derivative[i].transpose());
   }
 }
 

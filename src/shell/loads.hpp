@@ -2,6 +2,7 @@
 // Prescribed loads on a shell.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <span>
 #include <variant>
@@ -44,21 +45,37 @@ using Load = std::variant<PointForce, Traction, Pressure>;
 /// Triangles with all corners among the vertices.
 std::vector<int> triangles_of(const surface::TriangleMesh& mesh, std::span<const int> vertices);
 
+/// The loads of one instant: what doesn't depend on the configuration is evaluated once.
+class LoadsAtTime {
+ public:
+  /// Nodal forces (3n) in configuration x.
+  Eigen::VectorXd force(const Eigen::VectorXd& x) const;
+  /// K -= factor * the symmetric part of d force / d x. What it leaves out vanishes for a uniform pressure on a shell
+  /// without free edges.
+  void subtract_stiffness(const Eigen::VectorXd& x, double factor, BlockMatrix& K) const;
+
+ private:
+  friend class Loads;
+  struct Pressed {
+    std::array<int, 3> corner;
+    double pressure;
+  };
+  Eigen::VectorXd dead_;
+  std::vector<Pressed> pressed_;
+};
+
 /// Loads and gravity of a shell.
 class Loads {
  public:
   /// Keeps a reference to the shell. \throws InputError for numbers out of range or an empty PointForce.
   Loads(const Shell& shell, std::vector<Load> loads);
 
-  /// Nodal forces (3n) in configuration x at time t.
-  Eigen::VectorXd force(const Eigen::VectorXd& x, double t) const;
-  /// K -= factor * the symmetric part of d force / d x. What it leaves out vanishes for a uniform pressure on a shell
-  /// without free edges.
-  void subtract_stiffness(const Eigen::VectorXd& x, double t, double factor, BlockMatrix& K) const;
+  LoadsAtTime at(double t) const;
 
  private:
-  void add(const Traction& load, double t, Eigen::VectorXd& f) const;
-  void add(const Pressure& load, const Eigen::VectorXd& x, double t, Eigen::VectorXd& f) const;
+  void add(const PointForce& load, const std::vector<double>& shares, double t, LoadsAtTime& now) const;
+  void add(const Traction& load, double t, LoadsAtTime& now) const;
+  void add(const Pressure& load, double t, LoadsAtTime& now) const;
   void check(const PointForce& load) const;
   void check_triangles(std::vector<int>& triangles) const;
 

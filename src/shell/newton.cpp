@@ -22,19 +22,18 @@ namespace {
   const int v = static_cast<int>(worst / 3);
   const Vec3 X = shell.reference().vertices[v], now = x.segment<3>(3 * v);
   fail_run(
-      "{}: shell \"{}\" found no equilibrium in {} iterations: last increment {:.2e} of its size, at vertex {} "
+      "{}: shell '{}' found no equilibrium in {} iterations: last increment {:.2e} of its size, at vertex {} "
       "(reference ({:.6g}, {:.6g}, {:.6g}), now ({:.6g}, {:.6g}, {:.6g})); take smaller steps, add damping or "
       "refine the mesh there",
       when, shell.name(), report.iterations, report.increment, v, X.x(), X.y(), X.z(), now.x(), now.y(), now.z());
 }
 
-void renew(const Equilibrium& equilibrium, const Eigen::VectorXd& x, KeptTangent& tangent, NewtonReport& report)
+void renew(const Equilibrium& equilibrium, const Eigen::VectorXd& x, KeptTangent& tangent)
 {
   tangent.K.set_zero();
   equilibrium.tangent(x, tangent.K);
   tangent.solver->factorise(tangent.K);
   tangent.valid = true;
-  ++report.factorisations;
 }
 
 /// Growing, or shrinking by less than the wanted rate per iteration over the last two.
@@ -45,22 +44,34 @@ bool is_slow(const std::vector<double>& increments, double rate)
          (n >= 3 && increments[n - 1] > rate * rate * increments[n - 3]);
 }
 
+/// By more than half in the last iteration.
+bool is_shrinking(const std::vector<double>& increments)
+{
+  const std::size_t n = increments.size();
+  return n < 2 || increments[n - 1] < 0.5 * increments[n - 2];
+}
+
 }  // namespace
 
 NewtonReport newton(const Shell& shell, const Equilibrium& equilibrium, const NewtonPolicy& policy,
                     KeptTangent& tangent, Eigen::VectorXd& x, const std::string& when)
 {
   NewtonReport report;
-  double last = 0;
   while (true) {
     Eigen::VectorXd r = equilibrium.residual(x);
     shell.clear_held(r);
     report.residual = r.norm();
     report.residuals.push_back(report.residual);
     const bool renewed = !tangent.valid;
-    if (renewed)
-      renew(equilibrium, x, tangent, report);
-    Eigen::VectorXd dx = tangent.solver->solve(r);
+    Eigen::VectorXd dx;
+    try {
+      if (renewed)
+        renew(equilibrium, x, tangent);
+      dx = tangent.solver->solve(r);
+    } catch (const RunError& error) {
+      fail_run("{}: shell '{}': {}", when, shell.name(), error.what());
+    }
+    report.factorisations += renewed ? 1 : 0;
     report.increment = dx.lpNorm<Eigen::Infinity>() / shell.size();
     report.increments.push_back(report.increment);
     ++report.iterations;
@@ -69,15 +80,13 @@ NewtonReport newton(const Shell& shell, const Equilibrium& equilibrium, const Ne
     x += report.increment > policy.max_increment ? policy.max_increment / report.increment * dx : dx;
     if (report.increment <= policy.tolerance)
       return report;
-    const bool shrinking = report.iterations == 1 || report.increment < 0.5 * last;
-    if (renewed && !shrinking && report.increment < policy.round_off) {
+    if (renewed && report.increment < policy.round_off && !is_shrinking(report.increments)) {
       report.stopped_at_round_off = true;
       return report;
     }
     if (report.iterations == policy.max_iterations)
       fail(shell, report, x, dx, when);
     tangent.valid = policy.slow > 0 && !is_slow(report.increments, policy.slow);
-    last = report.increment;
   }
 }
 

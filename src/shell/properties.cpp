@@ -13,7 +13,7 @@ namespace {
 void require(bool allowed, std::string_view shell, std::string_view property, double value, std::string_view range)
 {
   if (!allowed)
-    fail_input("shell \"{}\": {} = {} must be {}", shell, property, value, range);
+    fail_input("shell '{}': {} = {} must be {}", shell, property, value, range);
 }
 
 }  // namespace

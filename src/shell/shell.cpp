@@ -36,7 +36,7 @@ Shell::Shell(surface::TriangleMesh reference, const Properties& properties, std:
              std::string name)
     : name_(std::move(name)), reference_(std::move(reference)), properties_(properties)
 {
-  surface::validate(reference_, "shell \"" + name_ + "\"");
+  surface::validate(reference_, "shell '" + name_ + "'");
   validate(properties_, name_);
   topology_ = surface::topology(reference_);
   size_ = surface::bounding_box(reference_.vertices).size();

@@ -52,44 +52,80 @@ void check_supported(const Shell& shell)
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> modes(0.5 * (resistance + resistance.transpose()));
   if (modes.eigenvalues()[0] < none)
     fail_input(
-        "shell \"{}\" can move as a rigid body, so it has no static equilibrium; add a support (a hinged edge alone "
+        "shell '{}' can move as a rigid body, so it has no static equilibrium; add a support (a hinged edge alone "
         "lets it turn) or analyse its motion in time",
         shell.name());
 }
 
+/// Follows the equilibrium as the load factor grows.
+class LoadPath {
+ public:
+  LoadPath(const Shell& shell, const Loads& loads, const StaticOptions& options)
+      : shell_(shell), options_(options), loads_(loads.at(options.time)), tangent_(shell, options.linear_solver)
+  {
+  }
+
+  /// Move x from the equilibrium at load factor `from` to that at `to`; in two halves where that fails.
+  NewtonReport advance(Eigen::VectorXd& x, double from, double to, const std::string& when, int halvings_left)
+  {
+    const Eigen::VectorXd start = x;
+    try {
+      return equilibrate(x, to, when);
+    } catch (const RunError&) {
+      if (halvings_left == 0)
+        throw;
+    }
+    x = start;
+    const double middle = 0.5 * (from + to);
+    advance(x, from, middle, when, halvings_left - 1);
+    return advance(x, middle, to, when, halvings_left - 1);
+  }
+
+ private:
+  NewtonReport equilibrate(Eigen::VectorXd& x, double factor, const std::string& when)
+  {
+    const Equilibrium equilibrium{
+        .residual = [&](const Eigen::VectorXd& y) -> Eigen::VectorXd {
+          return factor * loads_.force(y) - shell_.internal_force(y);
+        },
+        .tangent =
+            [&](const Eigen::VectorXd& y, BlockMatrix& K) {
+              shell_.add_tangent(y, K);
+              loads_.subtract_stiffness(y, factor, K);
+            },
+    };
+    tangent_.valid = false;
+    return newton(shell_, equilibrium, options_.newton, tangent_, x, when);
+  }
+
+  const Shell& shell_;
+  const StaticOptions& options_;
+  LoadsAtTime loads_;
+  KeptTangent tangent_;
+};
+
 }  // namespace
 
-StaticStep solve_static(const Shell& shell, const std::vector<Load>& load_list, const StaticOptions& options,
+StaticStep solve_static(const Shell& shell, const std::vector<Load>& loads, const StaticOptions& options,
                         const std::function<void(const StaticStep&)>& on_step)
 {
   if (options.steps < 1)
-    fail_input("shell \"{}\": static analysis with steps = {} must have at least 1", shell.name(), options.steps);
-  const Loads loads(shell, load_list);
+    fail_input("shell '{}': static analysis with steps = {} must have at least 1", shell.name(), options.steps);
   check_supported(shell);
-  KeptTangent tangent(shell, options.linear_solver);
+  LoadPath path(shell, Loads(shell, loads), options);
   StaticStep now;
   now.positions = shell.reference_positions();
-  for (now.step = 1; now.step <= options.steps; ++now.step) {
-    const double factor = static_cast<double>(now.step) / options.steps;
-    now.load_factor = factor;
-    const Equilibrium equilibrium{
-        .residual = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-          return factor * loads.force(x, options.time) - shell.internal_force(x);
-        },
-        .tangent =
-            [&](const Eigen::VectorXd& x, BlockMatrix& K) {
-              shell.add_tangent(x, K);
-              loads.subtract_stiffness(x, options.time, factor, K);
-            },
-    };
-    const std::string when = fmt::format("static step {} of {}, load factor {:.6g}", now.step, options.steps, factor);
-    tangent.valid = false;
-    now.report = newton(shell, equilibrium, options.newton, tangent, now.positions, when);
+  for (int step = 1; step <= options.steps; ++step) {
+    const double from = now.load_factor;
+    now.step = step;
+    now.load_factor = static_cast<double>(step) / options.steps;
+    const std::string when =
+        fmt::format("static step {} of {}, load factor {:.6g}", step, options.steps, now.load_factor);
+    now.report = path.advance(now.positions, from, now.load_factor, when, options.max_halvings);
     now.folds = check_folds(shell, now.positions, when);
     if (on_step)
       on_step(now);
   }
-  now.step = options.steps;
   return now;
 }
 

@@ -14,9 +14,10 @@
 namespace luff::shell {
 
 struct StaticOptions {
-  int steps = 20;   ///< equal load steps, at least 1
-  double time = 0;  ///< at which loads that depend on time are evaluated
-  NewtonPolicy newton{.tolerance = 1e-11, .slow = 0};
+  int steps = 20;        ///< equal load steps, at least 1
+  int max_halvings = 6;  ///< of a step that finds no equilibrium
+  double time = 0;       ///< at which loads that depend on time are evaluated
+  NewtonPolicy newton{.tolerance = 1e-11, .slow = 0, .max_iterations = 30};
   LinearSolverKind linear_solver = LinearSolverKind::Direct;
 };
 
@@ -29,7 +30,7 @@ struct StaticStep {
   Folds folds;
 };
 
-/// Load stepping with full Newton steps; returns the last equilibrium, reports each.
+/// Load stepping with full Newton steps, halved where they fail; returns the last equilibrium, reports each.
 /// \throws InputError when a rigid motion of the shell meets no support.
 /// \throws RunError naming the step, load factor and place when there is no equilibrium or the shell folds.
 StaticStep solve_static(const Shell& shell, const std::vector<Load>& loads, const StaticOptions& options = {},

@@ -29,14 +29,14 @@ struct Context {
 
   std::string name() const
   {
-    return fmt::format("shell \"{}\", support {} ({})", shell, number, kind_names[static_cast<int>(support.kind)]);
+    return fmt::format("shell '{}', support {} ({})", shell, number, kind_names[static_cast<int>(support.kind)]);
   }
 };
 
 std::vector<char> selected(const Context& c)
 {
   if (c.support.vertices.empty())
-    fail_input("{}: it selects no vertex; widen its \"where\"", c.name());
+    fail_input("{}: it selects no vertex; widen its 'where'", c.name());
   std::vector<char> flags(c.mesh.vertices.size(), 0);
   for (const int v : c.support.vertices) {
     if (v < 0 || v >= c.mesh.n_vertices())
@@ -83,7 +83,7 @@ int symmetry_axis(const Context& c, const std::vector<TriangleEdge>& edges)
     for (const TriangleEdge side : edges)
       normal += in_plane_normal(c.mesh, side);
   if (!(normal.norm() > 0))
-    fail_input("{}: it has no boundary edge to find its plane from; give its \"where\" as a plane", c.name());
+    fail_input("{}: it has no boundary edge to find its plane from; give its 'where' as a plane", c.name());
   normal.normalize();
   int axis = 0;
   const double largest = normal.cwiseAbs().maxCoeff(&axis);
@@ -118,8 +118,8 @@ class Builder {
       case SupportKind::Clamped:
         if (edges.empty() && !contains_triangle(c.mesh, flags))
           fail_input(
-              "{}: it selects no boundary edge, so there is no slope to keep; use \"hinged\" or widen its "
-              "\"where\" to both ends of an edge",
+              "{}: it selects no boundary edge, so there is no slope to keep; use 'hinged' or widen its "
+              "'where' to both ends of an edge",
               c.name());
         hold(c, {true, true, true});
         for (const TriangleEdge side : edges)

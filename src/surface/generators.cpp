@@ -93,7 +93,7 @@ double sine_of_opposite_angles(const Vec3& p, const Vec3& q, const Vec3& a, cons
   return (pa.cross(pb).norm() * qa.dot(qb) + pa.dot(pb) * qa.cross(qb).norm()) / lengths;
 }
 
-/// Flip the edges whose opposite angles sum to more than pi (Lawson 1977); returns how many.
+/// Flip the edges whose opposite angles sum to more than pi [lawson_1977_software]; returns how many.
 int flip_edges(TriangleMesh& mesh, const Vec3& normal)
 {
   constexpr double round_off = 1e-9;

@@ -158,7 +158,7 @@ TriangleMesh read_mesh(const std::filesystem::path& file)
 {
   const std::string kind = ending(file);
   if (kind != ".stl" && kind != ".obj" && kind != ".ply" && kind != ".vtp")
-    fail_input("{}: meshes are read from .stl, .obj, .ply and .vtp files, not \"{}\"", file.string(), kind);
+    fail_input("{}: meshes are read from .stl, .obj, .ply and .vtp files, not '{}'", file.string(), kind);
   check_readable(file);
   TriangleMesh mesh = triangles(*read(file), file);
   if (kind == ".stl")

@@ -72,7 +72,7 @@ TEST(BendingOperator, ExactlyConicPatchIsRefusedWithItsTriangle)
     FAIL();
   } catch (const InputError& error) {
     const std::string text = error.what();
-    EXPECT_NE(text.find("shell \"flag\": triangle 0"), std::string::npos) << text;
+    EXPECT_NE(text.find("shell 'flag': triangle 0"), std::string::npos) << text;
     EXPECT_NE(text.find("conic"), std::string::npos) << text;
   }
 }

@@ -22,13 +22,13 @@ TEST(Loads, WeightTractionAndForceAddUp)
   const double area = surface::total_area(mesh);
   const Shell shell(mesh, properties, {});
   const Eigen::VectorXd& X = shell.reference_positions();
-  EXPECT_LT((total(Loads(shell, {}).force(X, 0)) - Vec3(0, 0, -2 * 3 * 0.1 * area)).norm(), 1e-13);
-  const Vec3 weight = total(Loads(shell, {}).force(X, 0));
+  EXPECT_LT((total(Loads(shell, {}).at(0).force(X)) - Vec3(0, 0, -2 * 3 * 0.1 * area)).norm(), 1e-13);
+  const Vec3 weight = total(Loads(shell, {}).at(0).force(X));
   const Loads traction(shell, {Traction{{}, [](const Vec3&, double t) { return Vec3(t, 2, 3); }}});
-  EXPECT_LT((total(traction.force(X, 5)) - weight - area * Vec3(5, 2, 3)).norm(), 1e-12);
+  EXPECT_LT((total(traction.at(5).force(X)) - weight - area * Vec3(5, 2, 3)).norm(), 1e-12);
   const std::vector<int> edge = test::vertices_where(mesh, [](auto& x) { return x.x() == 0; });
   const Loads force(shell, {PointForce{edge, [](const Vec3&, double) { return Vec3(1, 2, 3); }}});
-  EXPECT_LT((total(force.force(X, 0)) - weight - Vec3(1, 2, 3)).norm(), 1e-13);
+  EXPECT_LT((total(force.at(0).force(X)) - weight - Vec3(1, 2, 3)).norm(), 1e-13);
 }
 
 TEST(Loads, EdgeForceIsSharedByLength)
@@ -39,7 +39,7 @@ TEST(Loads, EdgeForceIsSharedByLength)
   weightless.gravity.setZero();
   const Shell shell(mesh, weightless, {});
   const Loads loads(shell, {PointForce{{0, 1, 2}, [](const Vec3&, double) { return Vec3(0, 0, 8); }}});
-  const Eigen::VectorXd f = loads.force(shell.reference_positions(), 0);
+  const Eigen::VectorXd f = loads.at(0).force(shell.reference_positions());
   EXPECT_DOUBLE_EQ(f[2], 1);
   EXPECT_DOUBLE_EQ(f[5], 4);
   EXPECT_DOUBLE_EQ(f[8], 3);
@@ -76,11 +76,11 @@ TEST(Loads, PressureStiffnessOfAClosedSurfaceIsTheDerivativeOfItsForce)
   const Eigen::VectorXd x = balloon.reference_positions() + 0.05 * test::random_vector(3 * balloon.n_vertices(), 1);
   const Eigen::VectorXd d = test::random_vector(x.size(), 2);
   BlockMatrix K(balloon.pattern());
-  loads.subtract_stiffness(x, 0, 1, K);
+  loads.at(0).subtract_stiffness(x, 1, K);
   const double step = 1e-6;
-  const Eigen::VectorXd slope = (loads.force(x + step * d, 0) - loads.force(x - step * d, 0)) / (2 * step);
+  const Eigen::VectorXd slope = (loads.at(0).force(x + step * d) - loads.at(0).force(x - step * d)) / (2 * step);
   EXPECT_LT((slope + K * d).norm(), 1e-9 * slope.norm());
-  EXPECT_LT(total(loads.force(x, 0)).norm(), 1e-12 * loads.force(x, 0).norm());
+  EXPECT_LT(total(loads.at(0).force(x)).norm(), 1e-12 * loads.at(0).force(x).norm());
 }
 
 TEST(Loads, NumbersOutOfRangeAreRefused)

@@ -27,7 +27,7 @@ double end_deflection(const std::vector<Support>& supports, const surface::Trian
   const double EI = 1e6 * 1e-6 / 12 * width;
   const std::vector<int> end = at_x(mesh, 1);
   const Loads loads(strip, {PointForce{end, [=](const Vec3&, double) { return Vec3(0, 0, 3 * EI); }}});
-  return test::linear_displacement(strip, loads.force(strip.reference_positions(), 0))[3 * end.front() + 2];
+  return test::linear_displacement(strip, loads.at(0).force(strip.reference_positions()))[3 * end.front() + 2];
 }
 
 TEST(Support, ClampedStripBendsLikeACantilever)
@@ -54,7 +54,7 @@ TEST(Support, SymmetryGivesHalfOfTheWholePlate)
     const surface::TriangleMesh mesh = test::sheet(length, 0.25, n, 4, surface::Pattern::Alternating);
     const Shell strip(mesh, strip_properties, supports);
     const Loads loads(strip, {Traction{{}, [](const Vec3&, double) { return Vec3(0, 0, 1e-4); }}});
-    const auto u = test::linear_displacement(strip, loads.force(strip.reference_positions(), 0));
+    const auto u = test::linear_displacement(strip, loads.at(0).force(strip.reference_positions()));
     return u[3 * at_x(mesh, 1)[2] + 2];
   };
   const surface::TriangleMesh whole = test::sheet(2, 0.25, 32, 4, surface::Pattern::Alternating);
@@ -82,7 +82,7 @@ std::string refusal(const std::vector<Support>& supports)
 TEST(Support, BadSupportsAreRefusedByNameAndNumber)
 {
   EXPECT_NE(refusal({{.kind = SupportKind::Hinged, .vertices = {0}}, {.kind = SupportKind::Hinged}})
-                .find("shell \"flag\", support 2 (hinged): it selects no vertex"),
+                .find("shell 'flag', support 2 (hinged): it selects no vertex"),
             std::string::npos);
   EXPECT_NE(refusal({{.kind = SupportKind::Fixed, .vertices = {25}}}).find("vertex 25 is not in 0..24"),
             std::string::npos);
@@ -106,10 +106,10 @@ TEST(Support, BadPropertiesAreRefusedWithTheirRange)
   };
   Properties p = strip_properties;
   p.thickness = -0.01;
-  EXPECT_EQ(message(p), "shell \"flag\": thickness = -0.01 must be greater than 0");
+  EXPECT_EQ(message(p), "shell 'flag': thickness = -0.01 must be greater than 0");
   p = strip_properties;
   p.poisson = 0.7;
-  EXPECT_EQ(message(p), "shell \"flag\": poisson = 0.7 must be greater than -1 and at most 0.5");
+  EXPECT_EQ(message(p), "shell 'flag': poisson = 0.7 must be greater than -1 and at most 0.5");
 }
 
 }  // namespace

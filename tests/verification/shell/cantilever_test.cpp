@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large deflections of a cantilever under an end shear force (sze_2004_popular, section 3.1).
+// Large deflections of a cantilever under an end shear force [sze_2004_popular], section 3.1.
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.hpp"
 #include "shell/statics.hpp"
 #include "support/shells.hpp"
 
@@ -123,6 +124,24 @@ TEST(Cantilever, ConjugateGradientsFindTheSameEquilibrium)
   EXPECT_LT(difference, 1e-8 * 10);
 }
 
+// Bent by 0.4 of its length under its weight, ten thousand times longer than thick: whole steps fail, halves of them
+// don't.
+TEST(Cantilever, ThinSheetUnderItsWeightIsReachedByHalvingLoadSteps)
+{
+  const surface::TriangleMesh mesh = test::sheet(1, 0.2, 32, 6);
+  const double h = 1e-4;
+  const Shell sheet(
+      mesh,
+      {.thickness = h, .density = 1 / h, .young = 1e-2 / (h * h * h), .poisson = 0.3, .gravity = Vec3(0, 0, -0.01)},
+      {{.kind = SupportKind::Clamped, .vertices = test::vertices_where(mesh, [](auto& X) { return X.x() == 0; })}});
+  EXPECT_THROW(solve_static(sheet, {}, {.steps = 10, .max_halvings = 0}), RunError);
+  const StaticStep whole = solve_static(sheet, {}, {.steps = 10});
+  const StaticStep fine = solve_static(sheet, {}, {.steps = 100});
+  EXPECT_LT((whole.positions - fine.positions).lpNorm<Eigen::Infinity>(), 1e-8);
+  std::printf("  tip sinks by %.3f\n", -whole.positions[whole.positions.size() - 1]);
+  EXPECT_LT(whole.positions[whole.positions.size() - 1], -0.6);
+}
+
 // The pressure follows the strip, the load stiffness keeps Newton's method fast.
 TEST(Cantilever, FollowerPressureKeepsPressingAlongTheNormal)
 {
@@ -131,7 +150,7 @@ TEST(Cantilever, FollowerPressureKeepsPressingAlongTheNormal)
   const std::vector<Load> pressure{Pressure{{}, [=](const Vec3&, double) { return p; }}};
   const StaticStep loaded = solve_static(cantilever.shell, pressure, {.steps = 10});
   const Eigen::VectorXd reaction = cantilever.shell.internal_force(loaded.positions);
-  const Eigen::VectorXd load = Loads(cantilever.shell, pressure).force(loaded.positions, 0);
+  const Eigen::VectorXd load = Loads(cantilever.shell, pressure).at(0).force(loaded.positions);
   Eigen::VectorXd out_of_balance = load - reaction;
   cantilever.shell.clear_held(out_of_balance);
   EXPECT_LT(out_of_balance.norm(), 1e-6 * load.norm());

@@ -36,7 +36,7 @@ Shell simply_supported(const surface::TriangleMesh& mesh)
        {.kind = SupportKind::Fixed, .vertices = test::outline(mesh, 1, 1), .components = {false, false, true}}});
 }
 
-/// Navier's series for the integral of the deflection times D/q (timoshenko_1959_theory, section 30).
+/// Navier's series for the integral of the deflection times D/q [timoshenko_1959_theory], section 30.
 double exact_volume()
 {
   double sum = 0;
