@@ -53,8 +53,12 @@ void set_threads(int wanted)
 
 /// Runs a command; the exit status is 2 when the input is wrong and 1 when the run failed.
 template <class Command>
-int guarded(int rank, Command command)
+int guarded(Command command)
 {
+  int rank = 0;
+  int ranks = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   const auto say = [rank](const char* what) {
     if (rank == 0)
       std::cerr << "luff: " << what << std::endl;
@@ -66,7 +70,10 @@ int guarded(int rank, Command command)
     say(error.what());
     return 2;
   } catch (const luff::RunError& error) {
-    say(error.what());
+    // A failure to write is known to one rank only; the others must not wait for it.
+    std::cerr << "luff: " << error.what() << std::endl;
+    if (ranks > 1)
+      MPI_Abort(MPI_COMM_WORLD, 1);
     return 1;
   } catch (const std::exception& error) {
     std::cerr << "luff: " << error.what() << std::endl;
@@ -104,6 +111,8 @@ int main(int argc, char** argv)
   CLI::App* mesh = takes_case(app.add_subcommand("mesh", "Write grid and surfaces without running"));
   mesh->add_option("--out", out, "Folder to write to")->required();
   CLI::App* options = app.add_subcommand("options", "Print the reference of all keys of a case file");
+  bool markdown = false;
+  options->add_flag("--markdown", markdown, "As a page of the manual");
   CLI::App* pictures = app.add_subcommand("plot", "Make pictures of a run");
   pictures->add_option("run", file, "Folder of the run")->required();
 
@@ -113,7 +122,7 @@ int main(int argc, char** argv)
     set_threads(threads);
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
-    status = guarded(rank, [&] {
+    status = guarded([&] {
       using namespace luff::simulation;
       if (run->parsed())
         run_case(MPI_COMM_WORLD, file, overrides, {.out = out, .interrupted = [] { return interrupts > 0; }});
@@ -122,7 +131,8 @@ int main(int argc, char** argv)
       else if (mesh->parsed())
         write_meshes(MPI_COMM_WORLD, file, overrides, out);
       else if (options->parsed() && rank == 0)
-        luff::config::write_reference(std::cout, luff::config::Format::Text);
+        luff::config::write_reference(std::cout,
+                                      markdown ? luff::config::Format::Markdown : luff::config::Format::Text);
       else if (pictures->parsed())
         plot(file);
     });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "immersed/cut_links.hpp"
 
-#include "parallel/vector_field.hpp"
+#include "surface/mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +15,6 @@ Vec3 interpolate(std::span<const Vec3> field, const std::array<int, 3>& triangle
 {
   return hit.weights[0] * field[triangle[0]] + hit.weights[1] * field[triangle[1]] +
          hit.weights[2] * field[triangle[2]];
-}
-
-Vec3 unit_normal(std::span<const Vec3> position, const std::array<int, 3>& t)
-{
-  return (position[t[1]] - position[t[0]]).cross(position[t[2]] - position[t[0]]).normalized();
 }
 
 }  // namespace
@@ -41,7 +36,9 @@ void CutLinks::freeze(const SheetMotion& predicted, double dt, double speed, con
   predicted_velocity_.resize(n);
   predicted_acceleration_.resize(n);
   for (std::size_t q = 0; q < n; ++q) {
-    normals_[q] = unit_normal(predicted.position, triangle(crossings_[q]));
+    const auto& [a, b, c] = triangle(crossings_[q]);
+    normals_[q] =
+        surface::area_vector(predicted.position[a], predicted.position[b], predicted.position[c]).normalized();
     predicted_velocity_[q] = interpolate(predicted.velocity, triangle(crossings_[q]), crossings_[q]);
     predicted_acceleration_[q] = interpolate(predicted.acceleration, triangle(crossings_[q]), crossings_[q]);
   }

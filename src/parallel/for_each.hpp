@@ -40,6 +40,16 @@ void for_each_cell(const IndexBox& box, Kernel kernel)
         kernel(i, j, k);
 }
 
+/// function(i, j, k) for every cell of the box, i fastest, on the calling thread: for user functions of place and time.
+template <class Function>
+void for_each_cell_in_order(const IndexBox& box, Function function)
+{
+  for (int k = box.lo[2]; k < box.hi[2]; ++k)
+    for (int j = box.lo[1]; j < box.hi[1]; ++j)
+      for (int i = box.lo[0]; i < box.hi[0]; ++i)
+        function(i, j, k);
+}
+
 /// kernel(i_lo, i_hi, j, k) for every row of the box, in any order.
 template <class Kernel>
 void for_each_row(const IndexBox& box, Kernel kernel)

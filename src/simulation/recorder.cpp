@@ -106,7 +106,7 @@ void Recorder::open_probe(const config::ProbeOptions& options)
   if (options.shell) {
     for (const SheetRange& sheet : simulation_.structure().sheets())
       if (sheet.name == *options.shell) {
-        const auto& vertices = simulation_.structure().shell(sheet.part).shell->reference().vertices;
+        const auto& vertices = reference_mesh(sheet).vertices;
         const auto nearest = std::min_element(vertices.begin(), vertices.end(), [&](const Vec3& a, const Vec3& b) {
           return (a - options.point).squaredNorm() < (b - options.point).squaredNorm();
         });
@@ -121,6 +121,12 @@ void Recorder::open_probe(const config::ProbeOptions& options)
   }
   probe.csv = std::make_unique<output::CsvWriter>(folder_, "probe-" + probe.name + ".csv", columns);
   probes_.push_back(std::move(probe));
+}
+
+const surface::TriangleMesh& Recorder::reference_mesh(const SheetRange& sheet) const
+{
+  const Structure& structure = simulation_.structure();
+  return sheet.deforms ? structure.shell(sheet.part).shell->reference() : structure.rigid(sheet.part).mesh;
 }
 
 bool Recorder::record(const StepRecord& record)
@@ -256,8 +262,7 @@ output::SurfaceSnapshot Recorder::sheet_snapshot(const SheetRange& sheet, double
 {
   const Structure& structure = simulation_.structure();
   const std::vector<Vec3> now = structure.accepted_positions(t);
-  const surface::TriangleMesh& reference =
-      sheet.deforms ? structure.shell(sheet.part).shell->reference() : structure.rigid(sheet.part).mesh;
+  const surface::TriangleMesh& reference = reference_mesh(sheet);
   output::SurfaceSnapshot snapshot;
   std::vector<double> displacement;
   for (int v = 0; v < sheet.vertices; ++v) {

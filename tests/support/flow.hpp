@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Grids, flows and error norms for tests of the flow solver.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "fluid/flow_solver.hpp"
+
+namespace luff::test {
+
+/// n cells over [from, to] with widths that vary smoothly by (1 + amplitude) : (1 - amplitude).
+inline std::vector<double> stretched_faces(double from, double to, int n, double amplitude)
+{
+  std::vector<double> x(n + 1);
+  for (int i = 0; i <= n; ++i) {
+    const double s = static_cast<double>(i) / n;
+    x[i] = from + (to - from) * (s + amplitude * std::sin(2.0 * std::numbers::pi * s) / (2.0 * std::numbers::pi));
+  }
+  x.front() = from;
+  x.back() = to;
+  return x;
+}
+
+inline fluid::Boundaries all_sides(fluid::SideKind kind, const fluid::VectorFunction& velocity)
+{
+  fluid::Boundaries sides;
+  for (auto& axis : sides)
+    for (auto& side : axis)
+      side = {kind, velocity};
+  return sides;
+}
+
+/// A flow solver with its grid and pressure solver.
+struct TestFlow {
+  TestFlow(std::array<std::vector<double>, 3> faces, const fluid::Boundaries& sides, const fluid::FlowOptions& options,
+           const std::string& pressure = "multigrid")
+      : grid(MPI_COMM_WORLD, std::move(faces), fluid::periodic_axes(sides)),
+        solver(grid, options, sides,
+               poisson::make_pressure_solver(grid, fluid::pressure_conditions(sides), {.kind = pressure}))
+  {
+  }
+  /// One step with sheets that move as given.
+  poisson::Report step(double dt, const immersed::SheetMotion& sheets = {})
+  {
+    const TimeStep next{t, t + dt, dt, solver.state().steps + 1};
+    solver.begin_step(next, sheets);
+    const poisson::Report report = solver.project(sheets.velocity);
+    t += dt;
+    return report;
+  }
+  void advance(double dt, int steps)
+  {
+    for (int n = 0; n < steps; ++n) {
+      const poisson::Report report = step(dt);
+      largest_divergence = std::max(largest_divergence, report.divergence);
+      solver.accept();
+    }
+  }
+
+  grid::Grid grid;
+  fluid::FlowSolver solver;
+  double t = 0.0;
+  double largest_divergence = 0.0;
+};
+
+/// Volume-weighted root mean square of |u - exact| over the domain.
+inline double velocity_error(const TestFlow& flow, const std::function<Vec3(const Vec3&)>& exact)
+{
+  const auto u = views(flow.solver.state().u);
+  double sum = 0.0;
+  double volume = 0.0;
+  for_each_cell_in_order(flow.grid.owned(), [&](int i, int j, int k) {
+    const double V = flow.grid.volume(i, j, k);
+    const Vec3 here(u[0](i, j, k), u[1](i, j, k), u[2](i, j, k));
+    sum += V * (here - exact(flow.grid.centre(i, j, k))).squaredNorm();
+    volume += V;
+  });
+  return std::sqrt(flow.grid.ranks().sum(sum) / flow.grid.ranks().sum(volume));
+}
+
+/// The same of p at the latest time level, extrapolated from the half levels, up to a constant.
+inline double pressure_error(const TestFlow& flow, const std::function<double(const Vec3&)>& exact)
+{
+  const auto p = flow.solver.state().p.view();
+  const auto p_before = flow.solver.state().p_before.view();
+  double volume = 0.0;
+  double mean = 0.0;
+  double square = 0.0;
+  for_each_cell_in_order(flow.grid.owned(), [&](int i, int j, int k) {
+    const double V = flow.grid.volume(i, j, k);
+    const double e = 1.5 * p(i, j, k) - 0.5 * p_before(i, j, k) - exact(flow.grid.centre(i, j, k));
+    volume += V;
+    mean += V * e;
+    square += V * e * e;
+  });
+  volume = flow.grid.ranks().sum(volume);
+  mean = flow.grid.ranks().sum(mean) / volume;
+  return std::sqrt(std::max(0.0, flow.grid.ranks().sum(square) / volume - mean * mean));
+}
+
+/// Order observed between two resolutions.
+inline double observed_order(double coarse_error, double fine_error, double ratio = 2.0)
+{
+  return std::log(coarse_error / fine_error) / std::log(ratio);
+}
+
+}  // namespace luff::test

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Order of accuracy in space and time.
+#include <gtest/gtest.h>
+
+#include "support/flow.hpp"
+
+namespace luff::test {
+namespace {
+
+using std::numbers::pi;
+
+/// Taylor-Green's vortices, carried by a uniform stream: exact, unsteady, period 1 along x and y.
+struct TaylorGreen {
+  double viscosity = 0.0;
+  Vec3 stream{0.0, 0.0, 0.0};
+  double k = 2.0 * pi;
+
+  [[nodiscard]] Vec3 velocity(const Vec3& x, double t) const
+  {
+    const double decay = std::exp(-2.0 * viscosity * k * k * t);
+    const Vec3 X = x - stream * t;
+    return stream +
+           decay * Vec3(-std::cos(k * X[0]) * std::sin(k * X[1]), std::sin(k * X[0]) * std::cos(k * X[1]), 0.0);
+  }
+  [[nodiscard]] double pressure(const Vec3& x, double t) const
+  {
+    const double decay = std::exp(-4.0 * viscosity * k * k * t);
+    const Vec3 X = x - stream * t;
+    return -0.25 * decay * (std::cos(2.0 * k * X[0]) + std::cos(2.0 * k * X[1]));
+  }
+  [[nodiscard]] fluid::VectorFunction function() const
+  {
+    return {[*this](const Vec3& x, double t) { return velocity(x, t); }, false};
+  }
+};
+
+struct Errors {
+  double velocity = 0.0;
+  double pressure = 0.0;
+  double divergence = 0.0;
+};
+
+/// Taylor-Green's vortices on a stretched periodic grid; the step shrinks with the cells.
+Errors taylor_green_errors(int n)
+{
+  const TaylorGreen exact{.viscosity = 0.01, .stream = {1.0, 0.5, 0.0}};
+  TestFlow flow({stretched_faces(0, 1, n, 0.3), stretched_faces(0, 1, n, -0.3), {0.0, 0.1}},
+                all_sides(fluid::SideKind::Periodic, exact.function()),
+                {.viscosity = exact.viscosity, .stage_reduction = 0.0});
+  flow.solver.start(exact.function(), 0.0);
+  flow.advance(0.2 / n, 2 * n);
+  return {velocity_error(flow, [&](const Vec3& x) { return exact.velocity(x, flow.t); }),
+          pressure_error(flow, [&](const Vec3& x) { return exact.pressure(x, flow.t); }), flow.largest_divergence};
+}
+
+TEST(Order, TaylorGreenOnAStretchedPeriodicGridIsSecondOrderInSpace)
+{
+  const Errors coarse = taylor_green_errors(32);
+  const Errors fine = taylor_green_errors(64);
+  RecordProperty("velocity", std::to_string(observed_order(coarse.velocity, fine.velocity)));
+  RecordProperty("pressure", std::to_string(observed_order(coarse.pressure, fine.pressure)));
+  EXPECT_GE(observed_order(coarse.velocity, fine.velocity), 1.9);
+  EXPECT_GE(observed_order(coarse.pressure, fine.pressure), 1.9);
+  EXPECT_LE(fine.divergence, 1e-13);
+}
+
+/// Kovasznay's steady flow behind a row of cylinders, Re = 40 [kovasznay_1948_laminar].
+struct Kovasznay {
+  double reynolds = 40.0;
+  double lambda = 0.5 * reynolds - std::sqrt(0.25 * reynolds * reynolds + 4.0 * pi * pi);
+
+  [[nodiscard]] Vec3 velocity(const Vec3& x) const
+  {
+    const double e = std::exp(lambda * x[0]);
+    return {1.0 - e * std::cos(2.0 * pi * x[1]), lambda / (2.0 * pi) * e * std::sin(2.0 * pi * x[1]), 0.0};
+  }
+  [[nodiscard]] double pressure(const Vec3& x) const { return -0.5 * std::exp(2.0 * lambda * x[0]); }
+};
+
+Errors kovasznay_errors(int n)
+{
+  const Kovasznay exact;
+  const fluid::VectorFunction velocity{[exact](const Vec3& x, double) { return exact.velocity(x); }, false};
+  fluid::Boundaries sides = all_sides(fluid::SideKind::Velocity, velocity);
+  sides[1] = {fluid::SideBoundary{fluid::SideKind::Periodic, {}}, fluid::SideBoundary{fluid::SideKind::Periodic, {}}};
+  sides[2] = {fluid::SideBoundary{fluid::SideKind::Symmetry, {}}, fluid::SideBoundary{fluid::SideKind::Symmetry, {}}};
+  TestFlow flow({stretched_faces(-0.5, 1.0, n, 0.3), stretched_faces(-0.5, 0.5, n, -0.2), {0.0, 0.1}}, sides,
+                {.viscosity = 1.0 / exact.reynolds});
+  flow.solver.start(velocity, 0.0);
+  flow.advance(0.16 / n, 25 * n);
+  return {velocity_error(flow, [&](const Vec3& x) { return exact.velocity(x); }),
+          pressure_error(flow, [&](const Vec3& x) { return exact.pressure(x); }), flow.largest_divergence};
+}
+
+TEST(Order, KovasznayFlowBetweenPrescribedVelocitiesOnAStretchedGridIsSecondOrderInSpace)
+{
+  const Errors coarse = kovasznay_errors(24);
+  const Errors fine = kovasznay_errors(48);
+  RecordProperty("velocity", std::to_string(observed_order(coarse.velocity, fine.velocity)));
+  RecordProperty("pressure", std::to_string(observed_order(coarse.pressure, fine.pressure)));
+  EXPECT_GE(observed_order(coarse.velocity, fine.velocity), 1.9);
+  EXPECT_GE(observed_order(coarse.pressure, fine.pressure), 1.9);
+  EXPECT_LE(fine.divergence, 1e-13);
+}
+
+/// The same grid with different steps, against very small steps: the error in time alone.
+class TimeError {
+ public:
+  TimeError() : reference_(march(320)) {}
+  [[nodiscard]] Errors operator()(int steps) const
+  {
+    const auto flow = march(steps);
+    const auto& a = flow->solver.state();
+    const auto& b = reference_->solver.state();
+    const auto square = [&](auto value) {
+      return std::sqrt(sum_cells(flow->grid.owned(),
+                                 [value](int i, int j, int k) {
+                                   const double v = value(i, j, k);
+                                   return v * v;
+                                 }) /
+                       flow->grid.owned().volume());
+    };
+    return {square([u = a.u[0].view(), v = b.u[0].view()](int i, int j, int k) { return u(i, j, k) - v(i, j, k); }),
+            square([p = a.p.view(), q = a.p_before.view(), r = b.p.view(), s = b.p_before.view()](int i, int j, int k) {
+              return 1.5 * p(i, j, k) - 0.5 * q(i, j, k) - 1.5 * r(i, j, k) + 0.5 * s(i, j, k);
+            }),
+            0.0};
+  }
+
+ private:
+  static std::unique_ptr<TestFlow> march(int steps)
+  {
+    const TaylorGreen vortices{.viscosity = 0.05, .stream = {1.0, 0.5, 0.0}, .k = 1.0};
+    auto flow = std::make_unique<TestFlow>(
+        std::array{stretched_faces(0, 2 * pi, 32, 0.3), stretched_faces(0, 2 * pi, 32, 0.2), std::vector{0.0, 0.2}},
+        all_sides(fluid::SideKind::Periodic, vortices.function()),
+        fluid::FlowOptions{.viscosity = vortices.viscosity, .stage_reduction = 0.0});
+    flow->solver.start(vortices.function(), 0.0);
+    flow->advance(1.6 / steps, steps);
+    return flow;
+  }
+  std::unique_ptr<TestFlow> reference_;
+};
+
+TEST(Order, VelocityIsThirdOrderAndPressureSecondOrderInTime)
+{
+  const TimeError error;
+  const Errors coarse = error(20);
+  const Errors fine = error(40);
+  RecordProperty("velocity", std::to_string(observed_order(coarse.velocity, fine.velocity)));
+  RecordProperty("pressure", std::to_string(observed_order(coarse.pressure, fine.pressure)));
+  EXPECT_GE(observed_order(coarse.velocity, fine.velocity), 2.8);
+  EXPECT_GE(observed_order(coarse.pressure, fine.pressure), 1.9);
+}
+
+}  // namespace
+}  // namespace luff::test
