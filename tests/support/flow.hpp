@@ -37,26 +37,23 @@ inline fluid::Boundaries all_sides(fluid::SideKind kind, const fluid::VectorFunc
 /// A flow solver with its grid and pressure solver.
 struct TestFlow {
   TestFlow(std::array<std::vector<double>, 3> faces, const fluid::Boundaries& sides, const fluid::FlowOptions& options,
-           const std::string& pressure = "multigrid")
-      : grid(MPI_COMM_WORLD, std::move(faces), fluid::periodic_axes(sides)),
-        solver(grid, options, sides,
-               poisson::make_pressure_solver(grid, fluid::pressure_conditions(sides), {.kind = pressure}))
+           MPI_Comm comm = MPI_COMM_WORLD)
+      : grid(comm, std::move(faces), fluid::periodic_axes(sides)),
+        solver(grid, options, sides, poisson::make_pressure_solver(grid, fluid::pressure_conditions(sides)))
   {
   }
-  /// One step with sheets that move as given.
-  poisson::Report step(double dt, const immersed::SheetMotion& sheets = {})
+  /// One trial step with sheets that move as given; solver.accept() commits it.
+  void step(double dt, const immersed::SheetMotion& sheets = {})
   {
     const TimeStep next{t, t + dt, dt, solver.state().steps + 1};
     solver.begin_step(next, sheets);
-    const poisson::Report report = solver.project(sheets.velocity);
+    largest_divergence = std::max(largest_divergence, solver.project(sheets.velocity).divergence);
     t += dt;
-    return report;
   }
-  void advance(double dt, int steps)
+  void advance(double dt, int steps, const immersed::SheetMotion& sheets = {})
   {
     for (int n = 0; n < steps; ++n) {
-      const poisson::Report report = step(dt);
-      largest_divergence = std::max(largest_divergence, report.divergence);
+      step(dt, sheets);
       solver.accept();
     }
   }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Order of accuracy in space and time.
+#include <iostream>
+
 #include <gtest/gtest.h>
 
 #include "support/flow.hpp"
@@ -40,6 +42,18 @@ struct Errors {
   double divergence = 0.0;
 };
 
+/// Velocity of the order given or better, pressure of second order.
+void expect_orders(const Errors& coarse, const Errors& fine, double velocity_order)
+{
+  const double velocity = observed_order(coarse.velocity, fine.velocity);
+  const double pressure = observed_order(coarse.pressure, fine.pressure);
+  std::cout << "  order of velocity " << velocity << ", of pressure " << pressure << "; divergence "
+            << std::max(coarse.divergence, fine.divergence) << '\n';
+  EXPECT_GE(velocity, velocity_order);
+  EXPECT_GE(pressure, 1.9);
+  EXPECT_LE(std::max(coarse.divergence, fine.divergence), 1e-13);
+}
+
 /// Taylor-Green's vortices on a stretched periodic grid; the step shrinks with the cells.
 Errors taylor_green_errors(int n)
 {
@@ -57,11 +71,7 @@ TEST(Order, TaylorGreenOnAStretchedPeriodicGridIsSecondOrderInSpace)
 {
   const Errors coarse = taylor_green_errors(32);
   const Errors fine = taylor_green_errors(64);
-  RecordProperty("velocity", std::to_string(observed_order(coarse.velocity, fine.velocity)));
-  RecordProperty("pressure", std::to_string(observed_order(coarse.pressure, fine.pressure)));
-  EXPECT_GE(observed_order(coarse.velocity, fine.velocity), 1.9);
-  EXPECT_GE(observed_order(coarse.pressure, fine.pressure), 1.9);
-  EXPECT_LE(fine.divergence, 1e-13);
+  expect_orders(coarse, fine, 1.9);
 }
 
 /// Kovasznay's steady flow behind a row of cylinders, Re = 40 [kovasznay_1948_laminar].
@@ -84,10 +94,11 @@ Errors kovasznay_errors(int n)
   fluid::Boundaries sides = all_sides(fluid::SideKind::Velocity, velocity);
   sides[1] = {fluid::SideBoundary{fluid::SideKind::Periodic, {}}, fluid::SideBoundary{fluid::SideKind::Periodic, {}}};
   sides[2] = {fluid::SideBoundary{fluid::SideKind::Symmetry, {}}, fluid::SideBoundary{fluid::SideKind::Symmetry, {}}};
-  TestFlow flow({stretched_faces(-0.5, 1.0, n, 0.3), stretched_faces(-0.5, 0.5, n, -0.2), {0.0, 0.1}}, sides,
+  // Narrow cells at the ends: errors that reach the outlet turn into a layer of thickness nu/U = 1/40 there.
+  TestFlow flow({stretched_faces(-0.5, 1.0, n, -0.3), stretched_faces(-0.5, 0.5, n, -0.2), {0.0, 0.1}}, sides,
                 {.viscosity = 1.0 / exact.reynolds});
   flow.solver.start(velocity, 0.0);
-  flow.advance(0.16 / n, 25 * n);
+  flow.advance(0.16 / n, 18 * n);  // steady to four digits of the error
   return {velocity_error(flow, [&](const Vec3& x) { return exact.velocity(x); }),
           pressure_error(flow, [&](const Vec3& x) { return exact.pressure(x); }), flow.largest_divergence};
 }
@@ -96,11 +107,7 @@ TEST(Order, KovasznayFlowBetweenPrescribedVelocitiesOnAStretchedGridIsSecondOrde
 {
   const Errors coarse = kovasznay_errors(24);
   const Errors fine = kovasznay_errors(48);
-  RecordProperty("velocity", std::to_string(observed_order(coarse.velocity, fine.velocity)));
-  RecordProperty("pressure", std::to_string(observed_order(coarse.pressure, fine.pressure)));
-  EXPECT_GE(observed_order(coarse.velocity, fine.velocity), 1.9);
-  EXPECT_GE(observed_order(coarse.pressure, fine.pressure), 1.9);
-  EXPECT_LE(fine.divergence, 1e-13);
+  expect_orders(coarse, fine, 1.9);
 }
 
 /// The same grid with different steps, against very small steps: the error in time alone.
@@ -124,7 +131,7 @@ class TimeError {
             square([p = a.p.view(), q = a.p_before.view(), r = b.p.view(), s = b.p_before.view()](int i, int j, int k) {
               return 1.5 * p(i, j, k) - 0.5 * q(i, j, k) - 1.5 * r(i, j, k) + 0.5 * s(i, j, k);
             }),
-            0.0};
+            flow->largest_divergence};
   }
 
  private:
@@ -147,10 +154,7 @@ TEST(Order, VelocityIsThirdOrderAndPressureSecondOrderInTime)
   const TimeError error;
   const Errors coarse = error(20);
   const Errors fine = error(40);
-  RecordProperty("velocity", std::to_string(observed_order(coarse.velocity, fine.velocity)));
-  RecordProperty("pressure", std::to_string(observed_order(coarse.pressure, fine.pressure)));
-  EXPECT_GE(observed_order(coarse.velocity, fine.velocity), 2.8);
-  EXPECT_GE(observed_order(coarse.pressure, fine.pressure), 1.9);
+  expect_orders(coarse, fine, 2.8);
 }
 
 }  // namespace
