@@ -17,6 +17,13 @@ struct Outflow {
   Index3 worst_cell{};
 };
 
+/// Whether a target is met, given the norm before any correction.
+[[nodiscard]] inline bool meets(const Outflow& outflow, double initial_norm, const Target& target)
+{
+  return outflow.norm == 0.0 || (target.relative > 0.0 && outflow.norm <= target.relative * initial_norm) ||
+         (target.divergence > 0.0 && outflow.divergence <= target.divergence * target.speed);
+}
+
 class FluxCorrection {
  public:
   FluxCorrection(const grid::Grid& grid, const SideConditions& sides);

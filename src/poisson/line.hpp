@@ -17,8 +17,8 @@ struct Line {
   std::vector<double> h;          ///< widths, n
   std::vector<double> inverse_d;  ///< per face 0 ... n: 1 / distance between the centres beside it, or between centre
                                   ///< and side where p = 0 holds; 0 where no gradient acts
-  std::vector<double> measure;  ///< finest cells in each cell, n
-  std::vector<int> splits;      ///< first cells of the blocks of ranks, and n
+  std::vector<double> measure;    ///< finest cells in each cell, n
+  std::vector<int> splits;        ///< first cells of the blocks of ranks, and n
 
   /// Index of the neighbour of cell i on a side; -1 beyond the domain.
   [[nodiscard]] int neighbour(int i, int side) const

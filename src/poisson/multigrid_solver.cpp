@@ -103,13 +103,11 @@ void MultigridSolver::label_components()
   multigrid_.label_components(component_, floating_);
 }
 
-/// Subtracts from each floating component its mean, weighted by volume or not.
-void MultigridSolver::remove_means(const View<double>& values, bool weighted) const
+/// Means over the floating components of this solver's fluid, by volume or plainly; 0 for the others.
+std::vector<double> MultigridSolver::means(const View<const double>& values, bool by_volume) const
 {
-  if (std::none_of(floating_.begin(), floating_.end(), [](char f) { return f != 0; }))
-    return;
   const IndexBox& box = grid_.owned();
-  const auto weight = [&](int i, int j, int k) { return weighted ? grid_.volume(i, j, k) : 1.0; };
+  const auto weight = [&](int i, int j, int k) { return by_volume ? grid_.volume(i, j, k) : 1.0; };
   std::vector<double> sums(2 * floating_.size(), 0.0);
   if (component_.empty()) {
     sums[0] = sum_cells(box, [&](int i, int j, int k) { return weight(i, j, k) * values(i, j, k); });
@@ -124,14 +122,31 @@ void MultigridSolver::remove_means(const View<double>& values, bool weighted) co
         }
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, grid_.ranks().comm());
-  std::vector<double> mean(floating_.size(), 0.0);
-  for (std::size_t c = 0; c < mean.size(); ++c)
+  std::vector<double> result(floating_.size(), 0.0);
+  for (std::size_t c = 0; c < result.size(); ++c)
     if (floating_[c] != 0 && sums[2 * c + 1] > 0.0)
-      mean[c] = sums[2 * c] / sums[2 * c + 1];
-  for_each_row(box, [&](int begin, int end, int j, int k) {
-    for (int i = begin; i < end; ++i)
-      values(i, j, k) -= mean[component_.empty() ? 0 : component_of({i, j, k})];
-  });
+      result[c] = sums[2 * c] / sums[2 * c + 1];
+  return result;
+}
+
+/// Subtracts from each floating component its mean; returns the 2-norm of what is left.
+double MultigridSolver::remove_means(const View<double>& values, bool by_volume) const
+{
+  const IndexBox& box = grid_.owned();
+  if (std::any_of(floating_.begin(), floating_.end(), [](char f) { return f != 0; })) {
+    const std::vector<double> mean = means(values, by_volume);
+    for_each_row(box, [&](int begin, int end, int j, int k) {
+      if (component_.empty()) {
+        for (int i = begin; i < end; ++i)
+          values(i, j, k) -= mean[0];
+      } else {
+        for (int i = begin; i < end; ++i)
+          values(i, j, k) -= mean[component_of({i, j, k})];
+      }
+    });
+  }
+  return std::sqrt(
+      grid_.ranks().sum(sum_cells(box, [&](int i, int j, int k) { return values(i, j, k) * values(i, j, k); })));
 }
 
 std::size_t MultigridSolver::component_of(const Index3& cell) const
@@ -180,12 +195,6 @@ void MultigridSolver::unload_solution()
   });
 }
 
-bool MultigridSolver::met(const Outflow& outflow, double initial_norm, const Target& target) const
-{
-  return outflow.norm == 0.0 || (target.relative > 0.0 && outflow.norm <= target.relative * initial_norm) ||
-         (target.divergence > 0.0 && outflow.divergence <= target.divergence * target.speed);
-}
-
 /// No more digits than are missing, nor than single precision gives.
 double MultigridSolver::inner_tolerance(const Outflow& outflow, double initial_norm, const Target& target) const
 {
@@ -205,38 +214,40 @@ Report MultigridSolver::project(const View3<double>& U, const View<double>& p, d
   fluxes_.correct<double>(U, p, dt);
   Outflow outflow = fluxes_.measure(U, net);
   Report report;
-  while (!met(outflow, initial_norm, target) && report.iterations < target.max_iterations &&
-         std::isfinite(outflow.norm)) {
-    // Round-off in the large cells may dominate the norm while the small ones still hold something to correct.
-    const double round_off = 2.0 * std::numeric_limits<double>::epsilon() * outflow.flux_norm / outflow.norm;
-    const double tolerance = std::min(0.3, std::max(round_off, inner_tolerance(outflow, initial_norm, target)));
-    remove_means(net, /*weighted=*/false);
-    const double scale = 1.0 / outflow.norm;
-    load_right_hand_side(scale);
+  double norm = std::isfinite(outflow.norm) ? remove_means(net, /*by_volume=*/false) : outflow.norm;
+  while (!meets(outflow, initial_norm, target) && report.iterations < target.max_iterations && std::isfinite(norm)) {
+    // Below round-off of the fluxes nothing can be gained, and conjugate gradients would only stir noise.
+    const double round_off = 2.0 * std::numeric_limits<double>::epsilon() * outflow.flux_norm;
+    if (round_off >= 0.5 * norm)
+      break;
+    load_right_hand_side(1.0 / norm);
+    const double tolerance = std::max(round_off / norm, inner_tolerance(outflow, initial_norm, target));
     const auto inner = inner_.solve(tolerance, target.max_iterations - report.iterations);
     report.iterations += inner.iterations;
     if (!inner.finite)
       break;
     unload_solution();
     const View<const float> e = std::as_const(correction_).view();
-    const double factor = 1.0 / (scale * unit_);
+    const double factor = norm / unit_;
     fluxes_.correct<float>(U, e, factor);
     const Outflow corrected = fluxes_.measure(U, net);
+    const double corrected_norm = remove_means(net, /*by_volume=*/false);
     ++report.refinements;
-    if (!(corrected.norm < 0.9 * outflow.norm || corrected.divergence < 0.9 * outflow.divergence)) {
+    if (!(corrected_norm < 0.9 * norm)) {
       fluxes_.correct<float>(U, e, -factor);
       outflow = fluxes_.measure(U, net);
       break;
     }
     outflow = corrected;
+    norm = corrected_norm;
     const double to_pressure = factor / dt;
     for_each_cell(grid_.owned(), [=](int i, int j, int k) { p(i, j, k) += to_pressure * e(i, j, k); });
   }
-  remove_means(p, /*weighted=*/true);
+  remove_means(p, /*by_volume=*/true);
   halo_.exchange({p});
   report.divergence = outflow.divergence / target.speed;
   report.worst_cell = outflow.worst_cell;
-  report.converged = met(outflow, initial_norm, target);
+  report.converged = meets(outflow, initial_norm, target);
   return report;
 }
 

@@ -27,10 +27,10 @@ class MultigridSolver final : public PressureSolver {
   [[nodiscard]] Box make_box(const SideConditions& sides) const;
   void label_components();
   [[nodiscard]] std::size_t component_of(const Index3& cell) const;
-  void remove_means(const View<double>& values, bool weighted) const;
+  [[nodiscard]] std::vector<double> means(const View<const double>& values, bool by_volume) const;
+  double remove_means(const View<double>& values, bool by_volume) const;
   void load_right_hand_side(double scale);
   void unload_solution();
-  [[nodiscard]] bool met(const Outflow& outflow, double initial_norm, const Target& target) const;
   [[nodiscard]] double inner_tolerance(const Outflow& outflow, double initial_norm, const Target& target) const;
 
   const grid::Grid& grid_;

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "poisson/multigrid_solver.hpp"
+#include "poisson/petsc_solver.hpp"
 
 namespace luff::poisson {
 
@@ -11,6 +12,8 @@ std::unique_ptr<PressureSolver> make_pressure_solver(const grid::Grid& grid, con
 {
   if (options.kind == "multigrid")
     return std::make_unique<MultigridSolver>(grid, sides);
+  if (options.kind == "petsc")
+    return make_petsc_solver(grid, sides);
   fail_input("pressure.solver = \"{}\" is not known: choose \"multigrid\" or \"petsc\"", options.kind);
 }
 

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "core/error.hpp"
+#include "cases.hpp"
+
+namespace luff::poisson {
+namespace {
+
+using namespace test;
+
+struct NamedCase {
+  std::string name;
+  Problem problem;
+  Cuts cuts;
+};
+
+std::vector<NamedCase> all_cases()
+{
+  return {
+      {"closed uniform box", {{16, 17, 19}, 1.0, "NNNNNN"}, no_sheet},
+      {"closed stretched box", {{20, 16, 13}, 8.0, "NNNNNN"}, no_sheet},
+      {"outflow", {{20, 16, 13}, 4.0, "NDNNNN"}, no_sheet},
+      {"pressure on all sides", {{11, 12, 13}, 3.0, "DDDDDD"}, no_sheet},
+      {"triply periodic, odd", {{15, 13, 9}, 1.0, "PPPPPP"}, no_sheet},
+      {"periodic, stretched, outflow", {{16, 14, 15}, 5.0, "NDPPPP"}, no_sheet},
+      {"flag", {{24, 20, 18}, 1.0, "NNNNNN"}, flag},
+      {"flag, stretched, outflow", {{24, 20, 18}, 6.0, "NDNNNN"}, flag},
+      {"flag, periodic", {{25, 20, 17}, 3.0, "NDNNPP"}, flag},
+      {"closed box inside", {{20, 20, 20}, 2.0, "NNNNNN"}, closed_box},
+      {"closed box inside, outflow", {{20, 20, 20}, 2.0, "NDNNNN"}, closed_box},
+      {"orifice", {{24, 24, 24}, 1.0, "NNNNNN"}, orifice(0.06)},
+      {"slab of one cell", {{24, 20, 1}, 3.0, "NDNNNN"}, flag},
+      {"periodic slab of one cell", {{24, 20, 1}, 3.0, "NDNNPP"}, no_sheet},
+      {"periodic slab of two cells", {{24, 20, 2}, 1.0, "NDNNPP"}, flag},
+      {"column", {{1, 1, 30}, 2.0, "NNNNNN"}, no_sheet},
+      {"periodic row of two cells", {{2, 12, 10}, 1.0, "PPNNNN"}, no_sheet},
+  };
+}
+
+TEST(Projection, LeavesNoDivergenceInAnyCell)
+{
+  for (const NamedCase& c : all_cases()) {
+    const grid::Grid grid = c.problem.grid();
+    const Projection projection = project(c.problem, grid, c.cuts, tight);
+    EXPECT_TRUE(projection.report.converged) << c.name;
+    EXPECT_LE(divergence(grid, projection.U), 1e-13) << c.name;
+    EXPECT_LE(projection.report.iterations, 30) << c.name;
+    // Sums in another order differ by round-off.
+    EXPECT_NEAR(projection.report.divergence, divergence(grid, projection.U), 1e-14) << c.name;
+  }
+}
+
+TEST(Projection, AgreesWithPetsc)
+{
+  for (const NamedCase& c : all_cases()) {
+    const grid::Grid grid = c.problem.grid();
+    const Projection ours = project(c.problem, grid, c.cuts, tight);
+    const Projection petsc = project(c.problem, grid, c.cuts, {.divergence = 2e-13, .max_iterations = 500}, "petsc");
+    EXPECT_TRUE(petsc.report.converged) << c.name << ' ' << petsc.report.divergence;
+    EXPECT_LE(difference(grid, ours.p, petsc.p), 1e-10 * largest(grid, petsc.p)) << c.name;
+    Field3<double> before = make_field3<double>(grid.owned());
+    set_random_fluxes(c.problem, grid, {}, before);
+    for (int a = 0; a < 3; ++a)
+      EXPECT_LE(difference(grid, ours.U[a], petsc.U[a]), 1e-11 * largest(grid, before[a])) << c.name << " axis " << a;
+  }
+}
+
+TEST(Projection, CorrectsByTheGradientOfThePressureItReturns)
+{
+  const Problem problem{{14, 12, 10}, 3.0, "NDNNNN"};
+  const grid::Grid grid = problem.grid();
+  Field3<double> before = make_field3<double>(grid.owned());
+  const auto closed = blocked(grid, flag);
+  set_random_fluxes(problem, grid, closed, before);
+  const Projection projection = project(problem, grid, flag, tight);
+  const double dt = 0.1;
+  const auto p = [&](int i, int j, int k) { return projection.p(i, j, k); };
+  for (int k = 0; k < 10; ++k)
+    for (int j = 0; j < 12; ++j)
+      for (int i = 1; i <= 14; ++i) {
+        const double A = grid.width(1, j) * grid.width(2, k);
+        const double G = i < 14 ? A * (p(i, j, k) - p(i - 1, j, k)) / grid.distance(0, i)
+                                : A * (0.0 - p(i - 1, j, k)) / (0.5 * grid.width(0, i - 1));
+        const bool cut = std::binary_search(closed.begin(), closed.end(), FaceIndex{0, {i, j, k}}) ||
+                         std::find(closed.begin(), closed.end(), FaceIndex{0, {i, j, k}}) != closed.end();
+        EXPECT_NEAR(projection.U[0](i, j, k), before[0](i, j, k) - (cut ? 0.0 : dt * G), 1e-12 * A) << i << j << k;
+      }
+}
+
+TEST(Projection, StartsFromTheGivenPressure)
+{
+  const Problem problem{{20, 18, 16}, 4.0, "NDNNNN"};
+  const grid::Grid grid = problem.grid();
+  const auto closed = blocked(grid, flag);
+  Projection first = project(problem, grid, flag, tight);
+  const auto solver = make_pressure_solver(grid, problem.conditions());
+  solver->set_blocked(closed);
+  set_random_fluxes(problem, grid, closed, first.U);
+  const Report again = solver->project(views(first.U), first.p.view(), 0.1, tight);
+  EXPECT_TRUE(again.converged);
+  EXPECT_LE(again.iterations, 2);
+}
+
+TEST(Projection, StopsWhenTheOutflowFellByTheRelativeTarget)
+{
+  const Problem problem{{32, 32, 32}};
+  const grid::Grid grid = problem.grid();
+  const Report loose = project(problem, grid, flag, {.relative = 1e-2}).report;
+  const Report tighter = project(problem, grid, flag, {.relative = 1e-8}).report;
+  EXPECT_TRUE(loose.converged);
+  EXPECT_TRUE(tighter.converged);
+  EXPECT_LE(loose.iterations, 3);
+  EXPECT_GT(tighter.iterations, loose.iterations);
+}
+
+TEST(Projection, TakesAsManyIterationsThroughASmallHoleOnEveryGrid)
+{
+  std::vector<int> iterations;
+  for (const int n : {32, 48, 64}) {
+    const Problem problem{{n, n, n}};
+    const grid::Grid grid = problem.grid();
+    const Report report = project(problem, grid, orifice(1.2 / n), {.relative = 1e-10}).report;
+    EXPECT_TRUE(report.converged) << n;
+    iterations.push_back(report.iterations);
+  }
+  EXPECT_LE(*std::max_element(iterations.begin(), iterations.end()), 18);
+  EXPECT_LE(iterations.back(), iterations.front() + 3);
+}
+
+TEST(Projection, SolvesInsideAndOutsideAClosedBoxAtOnce)
+{
+  const Problem problem{{40, 40, 40}};
+  const grid::Grid grid = problem.grid();
+  const Projection projection = project(problem, grid, closed_box, {.relative = 1e-10});
+  EXPECT_TRUE(projection.report.converged);
+  EXPECT_LE(projection.report.iterations, 14);
+  double inside = 0.0;
+  double outside = 0.0;
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 40; ++j)
+      for (int i = 0; i < 40; ++i) {
+        const Point here{grid.centre(0, i), grid.centre(1, j), grid.centre(2, k)};
+        (closed_box(here, {0.0, 0.0, 0.0}) ? inside : outside) += projection.p(i, j, k);
+      }
+  const double scale = 64000.0 * largest(grid, projection.p);
+  EXPECT_LE(std::abs(inside), 1e-13 * scale);
+  EXPECT_LE(std::abs(outside), 1e-13 * scale);
+}
+
+TEST(Projection, GivesTheSameDigitsInAnyUnitOfLengthAndTime)
+{
+  const Problem metres{{24, 20, 18}, 5.0, "NDNNNN", 1.0};
+  for (const double length : {0x1p-20, 1e-3}) {
+    Problem scaled = metres;
+    scaled.length = length;
+    const grid::Grid grid = metres.grid();
+    const grid::Grid small = scaled.grid();
+    const double speed = length == 1e-3 ? 1e-7 : 0x1p-30;
+    const Projection a = project(metres, grid, flag, tight);
+    const Projection b = project(scaled, small, flag, {.divergence = 5e-14, .speed = speed}, "multigrid", speed);
+    EXPECT_EQ(a.report.iterations, b.report.iterations);
+    EXPECT_TRUE(b.report.converged);
+    const double ratio = a.p(5, 6, 7) * length * speed / b.p(5, 6, 7);
+    if (length == 1e-3) {
+      EXPECT_NEAR(ratio, 1.0, 1e-9);
+    } else {
+      EXPECT_EQ(ratio, 1.0);  // powers of two change no digit
+    }
+  }
+}
+
+TEST(Projection, GivesTheSameBitsOnOneAndTwoThreads)
+{
+  for (const char* sides : {"NDNNNN", "NDNNPP", "NNPPNN"}) {
+    const Problem problem{{24, 40, 44}, 3.0, sides};
+    const grid::Grid grid = problem.grid();
+    const int threads = omp_get_max_threads();
+    omp_set_num_threads(1);
+    const Projection one = project(problem, grid, flag, tight);
+    omp_set_num_threads(2);
+    const Projection two = project(problem, grid, flag, tight);
+    omp_set_num_threads(threads);
+    EXPECT_EQ(one.report.iterations, two.report.iterations);
+    EXPECT_EQ(difference(grid, one.p, two.p), 0.0) << sides;
+    for (int a = 0; a < 3; ++a)
+      EXPECT_EQ(difference(grid, one.U[a], two.U[a]), 0.0) << sides;
+  }
+}
+
+TEST(Projection, ForgetsFacesThatAreNoLongerBlocked)
+{
+  const Problem problem{{20, 20, 20}, 2.0, "NDNNNN"};
+  const grid::Grid grid = problem.grid();
+  const auto solver = make_pressure_solver(grid, problem.conditions());
+  Projection moved{make_field3<double>(grid.owned()), Field<double>(grid.owned()), {}};
+  solver->set_blocked(blocked(grid, closed_box));
+  solver->set_blocked(blocked(grid, flag));
+  set_random_fluxes(problem, grid, blocked(grid, flag), moved.U);
+  solver->project(views(moved.U), moved.p.view(), 0.1, tight);
+  const Projection fresh = project(problem, grid, flag, tight);
+  EXPECT_EQ(difference(grid, moved.p, fresh.p), 0.0);
+}
+
+TEST(Projection, ReportsTheCellWhoseFluxesNoPressureCanBalance)
+{
+  const Problem problem{{10, 10, 10}, 1.0, "NDNNNN"};
+  const grid::Grid grid = problem.grid();
+  const Index3 shut{4, 5, 6};
+  std::vector<FaceIndex> closed;
+  for (int a = 0; a < 3; ++a)
+    for (int s = 0; s < 2; ++s) {
+      Index3 c = shut;
+      c[a] += s;
+      closed.push_back({a, c});
+    }
+  Field3<double> U = make_field3<double>(grid.owned());
+  set_random_fluxes(problem, grid, {}, U);
+  Field<double> p(grid.owned());
+  const auto solver = make_pressure_solver(grid, problem.conditions());
+  solver->set_blocked(closed);
+  const Report report = solver->project(views(U), p.view(), 0.1, tight);
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.worst_cell, shut);
+  EXPECT_GT(report.divergence, 1e-3);
+  double elsewhere = 0.0;
+  for (int k = 0; k < 10; ++k)
+    for (int j = 0; j < 10; ++j)
+      for (int i = 0; i < 10; ++i)
+        if (Index3{i, j, k} != shut)
+          elsewhere = std::max(elsewhere, std::abs(U[0](i + 1, j, k) - U[0](i, j, k) + U[1](i, j + 1, k) -
+                                                   U[1](i, j, k) + U[2](i, j, k + 1) - U[2](i, j, k)));
+  EXPECT_LE(elsewhere, 1e-13 * 0.01);  // times the area of a face
+}
+
+TEST(Projection, ReportsNotANumberAndWhereItIs)
+{
+  const Problem problem{{10, 10, 10}, 1.0, "NDNNNN"};
+  const grid::Grid grid = problem.grid();
+  Field3<double> U = make_field3<double>(grid.owned());
+  set_random_fluxes(problem, grid, {}, U);
+  U[1](3, 4, 5) = std::numeric_limits<double>::quiet_NaN();
+  Field<double> p(grid.owned());
+  const Report report = make_pressure_solver(grid, problem.conditions())->project(views(U), p.view(), 0.1, tight);
+  EXPECT_FALSE(report.converged);
+  EXPECT_TRUE(std::isnan(report.divergence));
+  EXPECT_EQ(report.worst_cell, (Index3{3, 3, 5}));
+}
+
+TEST(Projection, DoesNotClaimToHaveBalancedWhatIsForcedThroughClosedSides)
+{
+  const Problem problem{{12, 12, 12}};
+  const grid::Grid grid = problem.grid();
+  Field3<double> U = make_field3<double>(grid.owned());
+  set_random_fluxes(problem, grid, {}, U);
+  U[0](0, 3, 3) = 1.0;
+  Field<double> p(grid.owned());
+  const Report report = make_pressure_solver(grid, problem.conditions())->project(views(U), p.view(), 0.1, tight);
+  EXPECT_FALSE(report.converged);
+  EXPECT_LT(report.iterations, 60);
+  EXPECT_NEAR(report.divergence, 1.0 / 1728.0 / (1.0 / 144.0), 1e-6);
+}
+
+TEST(PressureSolver, RefusesAnUnknownKind)
+{
+  const Problem problem{{4, 4, 4}};
+  const grid::Grid grid = problem.grid();
+  EXPECT_THROW((void)make_pressure_solver(grid, problem.conditions(), {"hypre"}), InputError);
+}
+
+}  // namespace
+}  // namespace luff::poisson
