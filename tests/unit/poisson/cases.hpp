@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "parallel/halo.hpp"
 #include "poisson/pressure_solver.hpp"
 
 namespace luff::poisson::test {
