@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program: reads the command line and calls a command.
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -27,18 +28,25 @@ extern "C" void on_interrupt(int)
     _exit(130);
 }
 
-/// All cores of this machine shared among its ranks, unless --threads or OMP_NUM_THREADS says otherwise.
-void set_threads(int wanted)
+/// Cores of this machine for each of its ranks.
+int cores_per_rank()
 {
-  if (wanted == 0 && std::getenv("OMP_NUM_THREADS") != nullptr)
-    return;
   MPI_Comm node = MPI_COMM_NULL;
   MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
   int ranks = 1;
   MPI_Comm_size(node, &ranks);
   MPI_Comm_free(&node);
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  omp_set_num_threads(wanted > 0 ? wanted : std::max(1, cores / ranks));
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / ranks);
+}
+
+/// --threads, or OMP_NUM_THREADS, or as many of the cores as the case can feed.
+luff::simulation::Threads choose_threads(int wanted)
+{
+  if (wanted > 0)
+    omp_set_num_threads(wanted);
+  else if (std::getenv("OMP_NUM_THREADS") == nullptr)
+    return {.at_most = cores_per_rank()};
+  return {};
 }
 
 [[noreturn]] void plot(const std::string& run)
@@ -51,34 +59,49 @@ void set_threads(int wanted)
   std::exit(1);
 }
 
+/// Whether every rank gets here within seconds.  An error that all ranks met ends each of them by itself; one that some
+/// met alone, such as a disk that refuses to be written, must not leave the others waiting.
+bool all_ranks_arrive()
+{
+  constexpr std::chrono::seconds patience{3};
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  int arrived = 0;
+  while (arrived == 0 && std::chrono::steady_clock::now() < deadline) {
+    MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return arrived != 0;
+}
+
+/// Tells what went wrong, once, and ends the other ranks if they don't know.
+int fail(const char* what, int status)
+{
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const auto say = [what] { std::cerr << "luff: " << what << std::endl; };
+  if (rank == 0)
+    say();
+  if (!all_ranks_arrive()) {
+    if (rank != 0)
+      say();
+    MPI_Abort(MPI_COMM_WORLD, status);
+  }
+  return status;
+}
+
 /// Runs a command; the exit status is 2 when the input is wrong and 1 when the run failed.
 template <class Command>
 int guarded(Command command)
 {
-  int rank = 0;
-  int ranks = 1;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  const auto say = [rank](const char* what) {
-    if (rank == 0)
-      std::cerr << "luff: " << what << std::endl;
-  };
   try {
     command();
     return 0;
   } catch (const luff::InputError& error) {
-    say(error.what());
-    return 2;
-  } catch (const luff::RunError& error) {
-    // A failure to write is known to one rank only; the others must not wait for it.
-    std::cerr << "luff: " << error.what() << std::endl;
-    if (ranks > 1)
-      MPI_Abort(MPI_COMM_WORLD, 1);
-    return 1;
+    return fail(error.what(), 2);
   } catch (const std::exception& error) {
-    std::cerr << "luff: " << error.what() << std::endl;
-    MPI_Abort(MPI_COMM_WORLD, 1);
-    return 1;
+    return fail(error.what(), 1);
   }
 }
 
@@ -119,13 +142,14 @@ int main(int argc, char** argv)
   int status = 0;
   try {
     app.parse(argc, argv);
-    set_threads(threads);
+    const luff::simulation::Threads available = choose_threads(threads);
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
     status = guarded([&] {
       using namespace luff::simulation;
       if (run->parsed())
-        run_case(MPI_COMM_WORLD, file, overrides, {.out = out, .interrupted = [] { return interrupts > 0; }});
+        run_case(MPI_COMM_WORLD, file, overrides,
+                 {.out = out, .threads = available, .interrupted = [] { return interrupts > 0; }});
       else if (check->parsed())
         check_case(MPI_COMM_WORLD, file, overrides);
       else if (mesh->parsed())

@@ -37,11 +37,13 @@ void describe(Schema& s, FluidOptions& fluid)
 
 void describe(Schema& s, InitialOptions& initial)
 {
+  s.mark(initial.mark);
   s.key("velocity", initial.velocity, {.doc = "Velocity at t = 0; it is made divergence-free.", .unit = "m/s"});
 }
 
 void describe(Schema& s, GridOptions& grid)
 {
+  s.mark(grid.mark);
   static constexpr std::array<const char*, 3> axes{"x", "y", "z"};
   s.key("kind", grid.kind, {.doc = "A box with cells of the sizes that its three axes give."});
   s.tables(axes, grid.axes, {.doc = "Cells along this axis.", .required = true});
@@ -50,6 +52,7 @@ void describe(Schema& s, GridOptions& grid)
 
 void describe(Schema& s, AxisOptions& axis)
 {
+  s.mark(axis.mark);
   s.key("from", axis.from, {.doc = "Low end.", .unit = "m", .required = true});
   s.key("to", axis.to, {.doc = "High end.", .unit = "m", .required = true});
   s.key("cells", axis.cells,
@@ -82,6 +85,7 @@ void describe(Schema& s, RefineOptions& refine)
 
 void describe(Schema& s, BoundaryOptions& boundary)
 {
+  s.mark(boundary.mark);
   s.tables(side_names, boundary.sides, {.doc = "Condition on this side of the grid.", .required = true});
 }
 

@@ -27,9 +27,11 @@ void describe(Schema& s, Case& options)
 void describe(Schema& s, StructureOptions& structure)
 {
   s.key("analysis", structure.analysis,
-        {.doc = "`dynamic`, or `static`: equilibrium under loads in which t goes from 0 to 1; only without a fluid."});
+        {.doc = "`dynamic`, or `static`: equilibrium under loads that grow in proportion from nothing to what they are "
+                "at t = 1; "
+                "only without a fluid."});
   s.when(structure.analysis == Analysis::Static, "`analysis = \"static\"`",
-         [&] { s.key("steps", structure.steps, {.doc = "Load steps from t = 0 to 1.", .range = at_least_one}); });
+         [&] { s.key("steps", structure.steps, {.doc = "Equal load steps.", .range = at_least_one}); });
   s.key("solver", structure.solver,
         {.doc = "Linear solver in Newton's method: sparse Cholesky, or conjugate gradients."});
 }

@@ -45,6 +45,7 @@ bool is_readable_mesh(const std::filesystem::path& file)
 
 void describe(Schema& s, ShellOptions& shell)
 {
+  s.mark(shell.mark);
   describe_name(s, shell.name, surface_name);
   s.table("mesh", shell.mesh, {.doc = "Triangles of the middle surface, free of stress as placed.", .required = true});
   describe_placement(s, shell.placement);
@@ -60,6 +61,7 @@ void describe(Schema& s, ShellOptions& shell)
 
 void describe(Schema& s, MeshOptions& mesh)
 {
+  s.mark(mesh.mark);
   s.exactly_one_of({"shape", "file"});
   s.key("shape", mesh.shape, {.doc = "Make the mesh: `rectangle`, the parallelogram of `a` and `b` at `origin`."});
   s.when(mesh.shape == MeshShape::Rectangle, "`shape = \"rectangle\"`", [&] {
@@ -111,6 +113,7 @@ void describe(Schema& s, DampingOptions& damping)
 
 void describe(Schema& s, SupportOptions& support)
 {
+  s.mark(support.mark);
   s.table("where", support.where, {.doc = "The vertices held.", .required = true});
   s.exactly_one_of({"type", "fixed"});
   s.key("type", support.type,
@@ -121,6 +124,7 @@ void describe(Schema& s, SupportOptions& support)
 
 void describe(Schema& s, LoadOptions& load)
 {
+  s.mark(load.mark);
   s.table("where", load.where,
           {.doc = "The vertices loaded; `pressure` and `traction` act on triangles with all corners among them.",
            .required = true});

@@ -22,6 +22,7 @@ class Reader : public Schema {
   void exactly_one_of(std::initializer_list<std::string_view> keys) override;
   void rule(bool holds, std::string_view key, std::string_view text, const std::string& detail) override;
   void later(std::initializer_list<std::string_view> keys) override;
+  void mark(Mark& mark) override { mark.text = place_of_key("").text(); }
 
  protected:
   void visit_key(std::string_view name, const Value& value, const Spec& spec) override;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "config/expression.hpp"
+#include "config/mark.hpp"
 #include "config/range.hpp"
 #include "config/words.hpp"
 
@@ -157,6 +158,9 @@ class Schema {
 
   /// Keys of the case-file language that this version does not have yet.
   virtual void later(std::initializer_list<std::string_view> keys) = 0;
+
+  /// Where the current table was written; only a Reader knows.
+  virtual void mark(Mark& /*mark*/) {}
 
  protected:
   virtual void visit_key(std::string_view name, const Value& value, const Spec& spec) = 0;

@@ -31,32 +31,6 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> rigid_motions(const Shell& shell)
   return R;
 }
 
-/// A rigid motion meets no resistance when neither a held displacement nor a kept slope opposes it.
-void check_supported(const Shell& shell)
-{
-  BlockMatrix K(shell.pattern());
-  shell.add_tangent(shell.reference_positions(), K);
-  double largest = 0;
-  for (const double k : K.values())
-    largest = std::max(largest, std::abs(k));
-  const auto R = rigid_motions(shell);
-  Eigen::Matrix<double, 6, 6> resistance;
-  for (int j = 0; j < 6; ++j) {
-    Eigen::VectorXd opposed = K * Eigen::VectorXd(R.col(j)) / largest;
-    for (std::size_t i = 0; i < shell.held().size(); ++i)
-      opposed[static_cast<Eigen::Index>(i)] += shell.held()[i] * R(static_cast<Eigen::Index>(i), j);
-    resistance.col(j) = R.transpose() * opposed;
-  }
-  // Round-off of the products; the slope kept by a clamp of thickness h opposes with about (h/element)^2 / 100.
-  constexpr double none = 1e-14;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> modes(0.5 * (resistance + resistance.transpose()));
-  if (modes.eigenvalues()[0] < none)
-    fail_input(
-        "shell '{}' can move as a rigid body, so it has no static equilibrium; add a support (a hinged edge alone "
-        "lets it turn) or analyse its motion in time",
-        shell.name());
-}
-
 /// Follows the equilibrium as the load factor grows.
 class LoadPath {
  public:
@@ -105,6 +79,32 @@ class LoadPath {
 };
 
 }  // namespace
+
+/// A rigid motion meets no resistance when neither a held displacement nor a kept slope opposes it.
+void check_supported(const Shell& shell)
+{
+  BlockMatrix K(shell.pattern());
+  shell.add_tangent(shell.reference_positions(), K);
+  double largest = 0;
+  for (const double k : K.values())
+    largest = std::max(largest, std::abs(k));
+  const auto R = rigid_motions(shell);
+  Eigen::Matrix<double, 6, 6> resistance;
+  for (int j = 0; j < 6; ++j) {
+    Eigen::VectorXd opposed = K * Eigen::VectorXd(R.col(j)) / largest;
+    for (std::size_t i = 0; i < shell.held().size(); ++i)
+      opposed[static_cast<Eigen::Index>(i)] += shell.held()[i] * R(static_cast<Eigen::Index>(i), j);
+    resistance.col(j) = R.transpose() * opposed;
+  }
+  // Round-off of the products; the slope kept by a clamp of thickness h opposes with about (h/element)^2 / 100.
+  constexpr double none = 1e-14;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> modes(0.5 * (resistance + resistance.transpose()));
+  if (modes.eigenvalues()[0] < none)
+    fail_input(
+        "shell '{}' can move as a rigid body, so it has no static equilibrium; add a support (a hinged edge alone "
+        "lets it turn) or analyse its motion in time",
+        shell.name());
+}
 
 StaticStep solve_static(const Shell& shell, const std::vector<Load>& loads, const StaticOptions& options,
                         const std::function<void(const StaticStep&)>& on_step)

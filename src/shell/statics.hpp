@@ -30,6 +30,9 @@ struct StaticStep {
   Folds folds;
 };
 
+/// \throws InputError when a rigid motion of the shell meets no support.
+void check_supported(const Shell& shell);
+
 /// Load stepping with full Newton steps, halved where they fail; returns the last equilibrium, reports each.
 /// \throws InputError when a rigid motion of the shell meets no support.
 /// \throws RunError naming the step, load factor and place when there is no equilibrium or the shell folds.

@@ -25,8 +25,8 @@ namespace luff::simulation {
 
 [[nodiscard]] std::array<std::vector<double>, 3> build_coordinates(const config::GridOptions& options);
 [[nodiscard]] fluid::Boundaries build_boundaries(const config::BoundaryOptions& options);
-/// Refuses sheets that leave the domain or touch sides other than symmetry, slip and periodic ones.
-void check_sheets_inside(const config::Case& options, const Structure& structure);
+/// Collective.
+[[nodiscard]] std::unique_ptr<grid::Grid> build_grid(MPI_Comm comm, const config::Case& options);
 /// Collective.
 [[nodiscard]] std::unique_ptr<Surroundings> build_surroundings(MPI_Comm comm, const config::Case& options);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/error.hpp"
 #include "grid/axis.hpp"
 #include "simulation/build.hpp"
+#include "simulation/check_flow.hpp"
+#include "simulation/refusal.hpp"
 
 namespace luff::simulation {
 
@@ -45,11 +46,6 @@ fluid::FlowOptions flow_options(const config::Case& options)
   return flow;
 }
 
-bool sheets_may_end_on(config::SideType type)
-{
-  return type == config::SideType::Symmetry || type == config::SideType::Slip || type == config::SideType::Periodic;
-}
-
 }  // namespace
 
 std::array<std::vector<double>, 3> build_coordinates(const config::GridOptions& options)
@@ -60,7 +56,7 @@ std::array<std::vector<double>, 3> build_coordinates(const config::GridOptions& 
     grid::AxisSpec spec{.from = axis.from, .to = axis.to, .cells = axis.cells, .refine = std::nullopt};
     if (axis.refine)
       spec.refine = grid::Refinement{axis.refine->from, axis.refine->to, axis.refine->spacing};
-    faces[a] = grid::face_coordinates(spec, std::string(1, "xyz"[a]));
+    faces[a] = refusing_at(axis.mark, [&] { return grid::face_coordinates(spec, std::string(1, "xyz"[a])); });
   }
   return faces;
 }
@@ -76,30 +72,12 @@ fluid::Boundaries build_boundaries(const config::BoundaryOptions& options)
   return boundaries;
 }
 
-void check_sheets_inside(const config::Case& options, const Structure& structure)
+std::unique_ptr<grid::Grid> build_grid(MPI_Comm comm, const config::Case& options)
 {
-  if (!options.fluid)
-    return;
-  const std::vector<Vec3> positions = structure.accepted_positions(0.0);
-  for (const SheetRange& sheet : structure.sheets())
-    for (int v = 0; v < sheet.vertices; ++v)
-      for (int a = 0; a < 3; ++a)
-        for (int end = 0; end < 2; ++end) {
-          const config::AxisOptions& axis = options.grid.axes[a];
-          const Vec3& x = positions[sheet.first_vertex + v];
-          const double inside = end == 0 ? x[a] - axis.from : axis.to - x[a];
-          // Vertices on a plane carry the rounding of its coordinate.
-          const double rounding = 1e-9 * (axis.to - axis.from);
-          const bool may_touch = sheets_may_end_on(options.boundary.sides[2 * a + end].type);
-          if (inside > rounding || (may_touch && inside >= -rounding))
-            continue;
-          fail_input(
-              "{} '{}': vertex {} at ({:.6g}, {:.6g}, {:.6g}) {} side {} of the grid at {} = {:.6g}; move the "
-              "sheet, or let the grid reach further (sheets may end on symmetry, slip and periodic sides only)",
-              sheet.deforms ? "shell" : "body", sheet.name, v, x[0], x[1], x[2],
-              inside < -rounding ? "lies beyond" : "touches", config::side_names[2 * a + end], "xyz"[a],
-              end == 0 ? axis.from : axis.to);
-        }
+  auto coordinates = build_coordinates(options.grid);
+  const auto periodic = fluid::periodic_axes(build_boundaries(options.boundary));
+  return refusing_at(options.grid.mark,
+                     [&] { return std::make_unique<grid::Grid>(comm, std::move(coordinates), periodic); });
 }
 
 std::unique_ptr<Surroundings> build_surroundings(MPI_Comm comm, const config::Case& options)
@@ -107,7 +85,8 @@ std::unique_ptr<Surroundings> build_surroundings(MPI_Comm comm, const config::Ca
   if (!options.fluid)
     return std::make_unique<Surroundings>();
   const fluid::Boundaries boundaries = build_boundaries(options.boundary);
-  auto grid = std::make_unique<grid::Grid>(comm, build_coordinates(options.grid), fluid::periodic_axes(boundaries));
+  auto grid = build_grid(comm, options);
+  check_flow(*grid, options);
   const poisson::SolverOptions solver{.kind = options.pressure.solver == config::PressureSolver::Petsc ? "petsc"
                                                                                                        : "multigrid"};
   auto flow = std::make_unique<fluid::FlowSolver>(

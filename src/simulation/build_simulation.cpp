@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/build.hpp"
-
-#include <limits>
+#include "simulation/check_flow.hpp"
 
 namespace luff::simulation {
 

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "simulation/build.hpp"
+#include "simulation/refusal.hpp"
 #include "surface/generators.hpp"
 #include "surface/readers.hpp"
 #include "surface/selection.hpp"
@@ -25,6 +26,29 @@ surface::Pattern pattern_of(config::MeshPattern pattern)
       break;
   }
   return surface::Pattern::Diagonal;
+}
+
+surface::TriangleMesh unplaced_mesh(const config::MeshOptions& mesh)
+{
+  if (mesh.file)
+    return surface::read_mesh(*mesh.file);
+  return surface::rectangle({.origin = mesh.origin,
+                             .a = mesh.a,
+                             .b = mesh.b,
+                             .divisions = mesh.divisions,
+                             .pattern = pattern_of(mesh.pattern)});
+}
+
+surface::TriangleMesh placed_mesh(const config::MeshOptions& mesh, const config::PlacementOptions& placement,
+                                  const std::string& owner)
+{
+  surface::TriangleMesh result = unplaced_mesh(mesh);
+  surface::scale(result, Vec3::Constant(placement.scale));
+  if (placement.rotate)
+    surface::rotate(result, placement.rotate->axis, placement.rotate->angle, placement.rotate->about);
+  surface::translate(result, placement.translate);
+  surface::validate(result, owner);
+  return result;
 }
 
 surface::Where where_of(const config::WhereOptions& where)
@@ -53,7 +77,8 @@ shell::Support support_of(const config::SupportOptions& options, const surface::
                           const std::string& what)
 {
   shell::Support support;
-  support.vertices = surface::select_vertices(mesh, where_of(options.where), what);
+  support.vertices =
+      refusing_at(options.mark, [&] { return surface::select_vertices(mesh, where_of(options.where), what); });
   if (options.fixed) {
     support.kind = shell::SupportKind::Fixed;
     support.components = {false, false, false};
@@ -118,21 +143,7 @@ RigidSheet build_rigid(const config::BodyOptions& options)
 surface::TriangleMesh build_mesh(const config::MeshOptions& mesh, const config::PlacementOptions& placement,
                                  const std::string& owner)
 {
-  surface::TriangleMesh result;
-  if (mesh.file)
-    result = surface::read_mesh(*mesh.file);
-  else
-    result = surface::rectangle({.origin = mesh.origin,
-                                 .a = mesh.a,
-                                 .b = mesh.b,
-                                 .divisions = mesh.divisions,
-                                 .pattern = pattern_of(mesh.pattern)});
-  surface::scale(result, Vec3::Constant(placement.scale));
-  if (placement.rotate)
-    surface::rotate(result, placement.rotate->axis, placement.rotate->angle, placement.rotate->about);
-  surface::translate(result, placement.translate);
-  surface::validate(result, owner);
-  return result;
+  return refusing_at(mesh.mark, [&] { return placed_mesh(mesh, placement, owner); });
 }
 
 std::unique_ptr<shell::Shell> build_shell_alone(const config::ShellOptions& options)
@@ -142,15 +153,18 @@ std::unique_ptr<shell::Shell> build_shell_alone(const config::ShellOptions& opti
   std::vector<shell::Support> supports;
   for (std::size_t n = 0; n < options.supports.size(); ++n)
     supports.push_back(support_of(options.supports[n], mesh, fmt::format("{}, support {}", owner, n + 1)));
-  return std::make_unique<shell::Shell>(std::move(mesh), properties_of(options), std::move(supports), options.name);
+  return refusing_at(options.mark, [&] {
+    return std::make_unique<shell::Shell>(std::move(mesh), properties_of(options), std::move(supports), options.name);
+  });
 }
 
 std::vector<shell::Load> build_loads(const config::ShellOptions& options, const shell::Shell& shell)
 {
   std::vector<shell::Load> loads;
   for (std::size_t n = 0; n < options.loads.size(); ++n)
-    loads.push_back(
-        load_of(options.loads[n], shell.reference(), fmt::format("shell '{}', load {}", options.name, n + 1)));
+    loads.push_back(refusing_at(options.loads[n].mark, [&] {
+      return load_of(options.loads[n], shell.reference(), fmt::format("shell '{}', load {}", options.name, n + 1));
+    }));
   return loads;
 }
 

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/commands.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include "core/error.hpp"
 #include "output/log.hpp"
 #include "output/series.hpp"
 #include "simulation/build.hpp"
+#include "simulation/check_flow.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/recorder.hpp"
 #include "simulation/static_run.hpp"
@@ -54,11 +57,28 @@ void march(const output::RunFolder& folder, const std::shared_ptr<spdlog::logger
   Recorder recorder(folder, log, options, simulation, interrupted);
   try {
     simulation.run([&](const StepRecord& record) { return recorder.record(record); });
-  } catch (const RunError& error) {
+  } catch (const InputError& error) {  // of the boundary at a later time, for one
+    recorder.finish(Ending::Failed, error.what());
+    fail_run("step {}: {}", simulation.clock().steps() + 1, error.what());
+  } catch (const std::exception& error) {
     recorder.finish(Ending::Failed, error.what());
     throw;
   }
   recorder.finish(simulation.clock().finished() ? Ending::Finished : Ending::Stopped, "");
+}
+
+/// A thread needs some twenty thousand cells to be worth its barriers (measured on two cores: below that, one is
+/// faster).
+void set_threads(MPI_Comm comm, const config::Case& options, const Threads& threads)
+{
+  if (threads.at_most == 0)
+    return;
+  int ranks = 1;
+  MPI_Comm_size(comm, &ranks);
+  double cells = 0.0;
+  if (options.fluid)
+    cells = double(options.grid.axes[0].cells) * options.grid.axes[1].cells * options.grid.axes[2].cells / ranks;
+  omp_set_num_threads(std::clamp(static_cast<int>(cells / 20000.0), 1, threads.at_most));
 }
 
 bool is_static(const config::Case& options)
@@ -66,28 +86,71 @@ bool is_static(const config::Case& options)
   return options.structure.analysis == config::Analysis::Static;
 }
 
+void say_groups(spdlog::logger& log, const config::Case& options, const Structure& structure)
+{
+  for (const std::string& line : describe_groups(options, structure))
+    log.info("{}", line);
+}
+
+std::shared_ptr<spdlog::logger> start_log(const output::RunFolder& folder, const config::Case& options)
+{
+  echo_case(folder, options);
+  auto log = output::make_log(folder);
+  log->info("{}", options.title);
+  log->info("writing to {}", folder.path().string());
+  return log;
+}
+
+output::FlowSnapshot grid_snapshot(const grid::Grid& grid)
+{
+  output::FlowSnapshot snapshot;
+  for (int a = 0; a < 3; ++a)
+    snapshot.nodes[a] = grid.faces(a);
+  snapshot.piece = grid.owned();
+  std::vector<float> volume;
+  for_each_cell_in_order(grid.owned(),
+                         [&](int i, int j, int k) { volume.push_back(static_cast<float>(grid.volume(i, j, k))); });
+  snapshot.fields.push_back({"volume", 1, std::move(volume)});
+  return snapshot;
+}
+
+output::SurfaceSnapshot surface_snapshot(const Structure& structure, const SheetRange& sheet)
+{
+  const std::vector<Vec3> positions = structure.accepted_positions(0.0);
+  const auto first = positions.begin() + sheet.first_vertex;
+  output::SurfaceSnapshot snapshot;
+  snapshot.points.assign(first, first + sheet.vertices);
+  for (int e = 0; e < sheet.triangles; ++e) {
+    auto corners = structure.triangles()[sheet.first_triangle + e];
+    for (int& v : corners)
+      v -= sheet.first_vertex;
+    snapshot.triangles.push_back(corners);
+  }
+  return snapshot;
+}
+
 }  // namespace
 
 void run_case(MPI_Comm comm, const std::filesystem::path& file, const config::Overrides& overrides,
               const RunOptions& run)
 {
+  // All that can be refused is refused before the folder is made.
   const config::Case options = config::load_case(file, overrides);
-  const auto structure = build_structure(options);
-  check_sheets_inside(options, *structure);
-  std::unique_ptr<Simulation> simulation;
-  if (!is_static(options))
-    simulation = build_simulation(comm, options);
-  const output::RunFolder folder = make_folder(comm, file, run);
-  echo_case(folder, options);
-  const auto log = output::make_log(folder);
-  log->info("{}", options.title);
-  log->info("writing to {}", folder.path().string());
-  for (const std::string& line : describe_groups(options, *structure))
-    log->info("{}", line);
-  if (is_static(options))
-    run_static(folder, log, options);
-  else
+  set_threads(comm, options, run.threads);
+  if (is_static(options)) {
+    const auto structure = build_structure(options);
+    const std::vector<StaticShell> shells = build_static(options);
+    const output::RunFolder folder = make_folder(comm, file, run);
+    const auto log = start_log(folder, options);
+    say_groups(*log, options, *structure);
+    run_static(folder, log, options, shells, anywhere(comm, run.interrupted));
+  } else {
+    const auto simulation = build_simulation(comm, options);
+    const output::RunFolder folder = make_folder(comm, file, run);
+    const auto log = start_log(folder, options);
+    say_groups(*log, options, simulation->structure());
     march(folder, log, options, *simulation, anywhere(comm, run.interrupted));
+  }
 }
 
 void check_case(MPI_Comm comm, const std::filesystem::path& file, const config::Overrides& overrides)
@@ -95,6 +158,10 @@ void check_case(MPI_Comm comm, const std::filesystem::path& file, const config::
   const config::Case options = config::load_case(file, overrides);
   const auto structure = build_structure(options);
   check_sheets_inside(options, *structure);
+  if (options.fluid)
+    check_flow(*build_grid(comm, options), options);
+  if (is_static(options))
+    (void)build_static(options);
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   if (rank != 0)
@@ -111,33 +178,12 @@ void write_meshes(MPI_Comm comm, const std::filesystem::path& file, const config
   const config::Case options = config::load_case(file, overrides);
   const auto structure = build_structure(options);
   check_sheets_inside(options, *structure);
+  const auto grid = options.fluid ? build_grid(comm, options) : nullptr;
   const output::RunFolder folder = output::RunFolder::at(comm, out);
-  if (options.fluid) {
-    const grid::Grid grid(comm, build_coordinates(options.grid),
-                          fluid::periodic_axes(build_boundaries(options.boundary)));
-    output::FlowSnapshot snapshot;
-    for (int a = 0; a < 3; ++a)
-      snapshot.nodes[a] = grid.faces(a);
-    snapshot.piece = grid.owned();
-    std::vector<float> volume;
-    for_each_cell_in_order(grid.owned(),
-                           [&](int i, int j, int k) { volume.push_back(static_cast<float>(grid.volume(i, j, k))); });
-    snapshot.fields.push_back({"volume", 1, std::move(volume)});
-    output::FlowSeries(folder, "grid").write(0.0, snapshot);
-  }
-  const std::vector<Vec3> positions = structure->accepted_positions(0.0);
-  for (const SheetRange& sheet : structure->sheets()) {
-    output::SurfaceSnapshot snapshot;
-    snapshot.points.assign(positions.begin() + sheet.first_vertex,
-                           positions.begin() + sheet.first_vertex + sheet.vertices);
-    for (int e = 0; e < sheet.triangles; ++e) {
-      auto corners = structure->triangles()[sheet.first_triangle + e];
-      for (int& v : corners)
-        v -= sheet.first_vertex;
-      snapshot.triangles.push_back(corners);
-    }
-    output::SurfaceSeries(folder, sheet.name).write(0.0, snapshot);
-  }
+  if (grid)
+    output::FlowSeries(folder, "grid").write(0.0, grid_snapshot(*grid));
+  for (const SheetRange& sheet : structure->sheets())
+    output::SurfaceSeries(folder, sheet.name).write(0.0, surface_snapshot(*structure, sheet));
   if (folder.writes())
     std::cout << "grid and surfaces written to " << folder.path().string() << "\n";
 }

@@ -11,9 +11,15 @@
 
 namespace luff::simulation {
 
+/// How many threads a rank may start; none given: leave what OpenMP was told.
+struct Threads {
+  int at_most = 0;
+};
+
 /// What `run` takes from the command line besides the case.
 struct RunOptions {
-  std::filesystem::path out;                                 ///< empty: runs/<case>/<nnn>
+  std::filesystem::path out;  ///< empty: runs/<case>/<nnn>
+  Threads threads;
   std::function<bool()> interrupted = [] { return false; };  ///< whether this rank was asked to end
 };
 

@@ -97,7 +97,9 @@ void Recorder::open_tables()
 
 void Recorder::open_probe(const config::ProbeOptions& options)
 {
-  Probe probe{.name = options.name, .point = options.point};
+  Probe probe;
+  probe.name = options.name;
+  probe.point = options.point;
   std::vector<output::Column> columns{{"t", "time"}};
   const auto add = [&columns](const std::string& name, const std::string& unit) {
     for (const output::Column& c : output::vector_columns(name, unit))
@@ -238,12 +240,12 @@ void Recorder::write_probes(double t, double dt)
 
 void Recorder::write_snapshots(double t, double dt, bool last)
 {
-  if (fields_ && (fields_due_.due(t) || last)) {
+  if (fields_ && fields_due_.due(t, last)) {
     auto* flow = simulation_.surroundings().flow();
     flow->fill_halos();
     fields_->write(t, flow_snapshot(*flow, options_.output.fields->what));
   }
-  if (options_.output.shells && (shells_due_.due(t) || last))
+  if (options_.output.shells && shells_due_.due(t, last))
     write_shells(t, dt);
 }
 
@@ -356,13 +358,13 @@ void Recorder::finish(Ending ending, const std::string& reason)
     summary["reason"] = reason;
   const double steps = std::max(1, clock.steps());
   if (auto* flow = simulation_.surroundings().flow()) {
-    const double cells = static_cast<double>(flow->grid().ranks().domain().volume());
+    const long cells = flow->grid().ranks().domain().volume();
     summary["cells"] = cells;
     summary["max_divergence"] = largest_divergence_;
     summary["max_cfl"] = largest_cfl_;
     summary["steps_beyond_recommended_limits"] = steps_beyond_limits_;
     summary["mean_pressure_iterations"] = pressure_iterations_ / steps;
-    summary["microseconds_per_cell_and_step"] = 1e6 * seconds_stepping_ / (cells * steps);
+    summary["microseconds_per_cell_and_step"] = 1e6 * seconds_stepping_ / (double(cells) * steps);
   }
   if (!options_.shells.empty()) {
     summary["mean_coupling_iterations"] = coupling_iterations_ / steps;

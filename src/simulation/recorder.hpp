@@ -17,29 +17,10 @@
 #include "output/progress.hpp"
 #include "output/run_folder.hpp"
 #include "output/series.hpp"
+#include "simulation/cadence.hpp"
 #include "simulation/simulation.hpp"
 
 namespace luff::simulation {
-
-/// Instants at which something is due, every `interval` from t = 0 on.
-class Cadence {
- public:
-  explicit Cadence(std::optional<double> interval) : interval_(interval) {}
-  /// True once for each instant reached.
-  bool due(double t)
-  {
-    // The rounding of a time that many steps added up to.
-    if (!interval_ || t < (next_ - 1e-9) * *interval_)
-      return false;
-    while (t >= (next_ - 1e-9) * *interval_)
-      ++next_;
-    return true;
-  }
-
- private:
-  std::optional<double> interval_;
-  long next_ = 0;
-};
 
 /// How a run ended.
 enum class Ending { Finished, Stopped, Failed };

@@ -10,10 +10,14 @@
 #include "output/summary.hpp"
 #include "shell/statics.hpp"
 #include "simulation/build.hpp"
+#include "simulation/refusal.hpp"
 
 namespace luff::simulation {
 
 namespace {
+
+/// Loads grow in proportion from nothing to what they are at this time.
+constexpr double end_of_loading = 1.0;
 
 /// Displacement of one vertex against the load factor.
 struct StaticProbe {
@@ -55,43 +59,94 @@ output::SurfaceSnapshot snapshot(const shell::Shell& shell, const Eigen::VectorX
   return result;
 }
 
-void load(const output::RunFolder& folder, spdlog::logger& log, const config::Case& options, const shell::Shell& shell,
-          const config::ShellOptions& shell_options, nlohmann::ordered_json& summary)
-{
-  std::vector<StaticProbe> probes = open_probes(folder, options, shell);
-  output::SurfaceSeries series(folder, "shell-" + shell.name());
-  series.write(0.0, snapshot(shell, shell.reference_positions()));
-  shell::StaticOptions statics{.steps = options.structure.steps, .time = options.time.end};
-  if (options.structure.solver == config::StructureSolver::Cg)
-    statics.linear_solver = shell::LinearSolverKind::ConjugateGradients;
-  const auto on_step = [&](const shell::StaticStep& step) {
-    log.info("shell '{}': load factor {:.4g}, {} Newton iterations", shell.name(), step.load_factor,
-             step.report.iterations);
-    series.write(step.load_factor, snapshot(shell, step.positions));
-    for (StaticProbe& probe : probes) {
-      const Vec3 u = (step.positions - shell.reference_positions()).segment<3>(3 * probe.vertex);
+/// Thrown where the user asks the run to end.
+struct Stopped {};
+
+/// Writes the equilibria of one shell as they are found.
+class StaticRecorder {
+ public:
+  StaticRecorder(const output::RunFolder& folder, const config::Case& options, const shell::Shell& shell)
+      : shell_(shell), probes_(open_probes(folder, options, shell)), series_(folder, "shell-" + shell.name())
+  {
+    series_.write(0.0, snapshot(shell, shell.reference_positions()));
+  }
+
+  void record(const shell::StaticStep& step, nlohmann::ordered_json& summary)
+  {
+    series_.write(step.load_factor, snapshot(shell_, step.positions));
+    for (StaticProbe& probe : probes_) {
+      const Vec3 u = (step.positions - shell_.reference_positions()).segment<3>(3 * probe.vertex);
       probe.csv.row(std::array<double, 5>{step.load_factor, u[0], u[1], u[2], double(step.report.iterations)});
       summary["probes"][probe.name] = {u[0], u[1], u[2]};
     }
-  };
-  (void)shell::solve_static(shell, build_loads(shell_options, shell), statics, on_step);
+  }
+
+ private:
+  const shell::Shell& shell_;
+  std::vector<StaticProbe> probes_;
+  output::SurfaceSeries series_;
+};
+
+shell::StaticOptions static_options(const config::StructureOptions& structure)
+{
+  shell::StaticOptions options{.steps = structure.steps, .time = end_of_loading};
+  if (structure.solver == config::StructureSolver::Cg)
+    options.linear_solver = shell::LinearSolverKind::ConjugateGradients;
+  return options;
+}
+
+/// Runs `load`, which fills the summary, and writes the summary however it ends.
+template <class Load>
+void summarise(const output::RunFolder& folder, spdlog::logger& log, nlohmann::ordered_json& summary, Load load)
+{
+  try {
+    load();
+    summary["state"] = "finished";
+  } catch (const Stopped&) {
+    summary["state"] = "stopped";
+  } catch (const std::exception& error) {
+    summary["reason"] = error.what();
+    output::write_summary(folder, summary);
+    throw;
+  }
+  output::write_summary(folder, summary);
+  log.info("{}; tables: {}; summary: {}", summary["state"].get<std::string>(), folder.file("probe-*.csv").string(),
+           folder.file("summary.json").string());
 }
 
 }  // namespace
 
+std::vector<StaticShell> build_static(const config::Case& options)
+{
+  std::vector<StaticShell> shells;
+  for (const config::ShellOptions& shell_options : options.shells) {
+    auto shell = build_shell_alone(shell_options);
+    refusing_at(shell_options.mark, [&] { shell::check_supported(*shell); });
+    auto loads = build_loads(shell_options, *shell);
+    shells.push_back({std::move(shell), std::move(loads)});
+  }
+  return shells;
+}
+
 void run_static(const output::RunFolder& folder, const std::shared_ptr<spdlog::logger>& log,
-                const config::Case& options)
+                const config::Case& options, const std::vector<StaticShell>& shells,
+                const std::function<bool()>& interrupted)
 {
   nlohmann::ordered_json summary{{"title", options.title}, {"state", "failed"}};
-  output::write_summary(folder, summary);
-  for (const config::ShellOptions& shell_options : options.shells) {
-    const auto shell = build_shell_alone(shell_options);
-    load(folder, *log, options, *shell, shell_options, summary);
-    log->info("open in ParaView: {}", folder.file("shell-" + shell->name() + ".pvd").string());
-  }
-  summary["state"] = "finished";
-  output::write_summary(folder, summary);
-  log->info("tables: {}; summary: {}", folder.file("probe-*.csv").string(), folder.file("summary.json").string());
+  summarise(folder, *log, summary, [&] {
+    for (const auto& [shell, loads] : shells) {
+      log->info("open in ParaView: {}", folder.file("shell-" + shell->name() + ".pvd").string());
+      StaticRecorder recorder(folder, options, *shell);
+      (void)shell::solve_static(*shell, loads, static_options(options.structure), [&](const shell::StaticStep& step) {
+        log->info("shell '{}': load factor {:.4g}, {} Newton iterations", shell->name(), step.load_factor,
+                  step.report.iterations);
+        recorder.record(step, summary);
+        const bool asked = folder.stop_requested() || interrupted();
+        if (asked && step.load_factor < 1.0)
+          throw Stopped();
+      });
+    }
+  });
 }
 
 }  // namespace luff::simulation

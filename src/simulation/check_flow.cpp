@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/check_flow.hpp"
+
+#include <limits>
+
+#include "core/error.hpp"
+#include "fluid/boundary.hpp"
+#include "simulation/build.hpp"
+#include "simulation/refusal.hpp"
+
+namespace luff::simulation {
+
+namespace {
+
+bool sheets_may_end_on(config::SideType type)
+{
+  return type == config::SideType::Symmetry || type == config::SideType::Slip || type == config::SideType::Periodic;
+}
+
+void check_sheet_inside(const config::Case& options, const SheetRange& sheet, std::span<const Vec3> positions)
+{
+  for (int v = 0; v < sheet.vertices; ++v)
+    for (int a = 0; a < 3; ++a)
+      for (int end = 0; end < 2; ++end) {
+        const config::AxisOptions& axis = options.grid.axes[a];
+        const Vec3& x = positions[v];
+        const double inside = end == 0 ? x[a] - axis.from : axis.to - x[a];
+        // Vertices on a plane carry the rounding of its coordinate.
+        const double rounding = 1e-9 * (axis.to - axis.from);
+        const bool may_touch = sheets_may_end_on(options.boundary.sides[2 * a + end].type);
+        if (inside > rounding || (may_touch && inside >= -rounding))
+          continue;
+        fail_input(
+            "{} '{}': vertex {} at ({:.6g}, {:.6g}, {:.6g}) {} side {} of the grid at {} = {:.6g}; move the "
+            "sheet, or let the grid reach further (sheets may end on symmetry, slip and periodic sides only)",
+            sheet.deforms ? "shell" : "body", sheet.name, v, x[0], x[1], x[2],
+            inside < -rounding ? "lies beyond" : "touches", config::side_names[2 * a + end], "xyz"[a],
+            end == 0 ? axis.from : axis.to);
+      }
+}
+
+/// Throws, on every rank, if the velocity at t = 0 is no number at the centre of one of the cells (global indices; each
+/// rank looks at its own).  Sides look at the centres of the cells beside them.
+void check_finite(const grid::Grid& grid, const IndexBox& cells, const config::VectorExpression& velocity,
+                  const std::string& key)
+{
+  const auto& n = grid.cells();
+  const double none = std::numeric_limits<double>::max();
+  double first = none;
+  const IndexBox mine = intersection(cells, grid.owned());
+  for_each_cell_in_order(mine, [&](int i, int j, int k) {
+    const double number = i + double(n[0]) * (j + double(n[1]) * k);
+    if (number < first && !velocity.evaluate(grid.centre(i, j, k), 0.0).allFinite())
+      first = number;
+  });
+  first = -grid.ranks().max(-first);
+  if (first == none)
+    return;
+  const auto number = static_cast<long>(first);
+  const Vec3 x = grid.centre(static_cast<int>(number % n[0]), static_cast<int>(number / n[0] % n[1]),
+                             static_cast<int>(number / n[0] / n[1]));
+  const Vec3 u = velocity.evaluate(x, 0.0);
+  fail_input(
+      "{} is [{}, {}, {}] at ({:.6g}, {:.6g}, {:.6g}), t = 0; it must be a number everywhere: guard the formula there, "
+      "as in \"x > 0 ? 1/x : 0\"",
+      key, u[0], u[1], u[2], x[0], x[1], x[2]);
+}
+
+/// The owned cells beside a side of the domain.
+IndexBox cells_beside(const grid::Grid& grid, int axis, int end)
+{
+  IndexBox box = grid.ranks().domain();
+  (end == 0 ? box.hi : box.lo)[axis] = end == 0 ? 1 : grid.cells()[axis] - 1;
+  return box;
+}
+
+void check_initial_velocity(const grid::Grid& grid, const config::InitialOptions& initial)
+{
+  const IndexBox cells = initial.velocity.is_constant() ? IndexBox{{0, 0, 0}, {1, 1, 1}} : grid.ranks().domain();
+  refusing_at(initial.mark, [&] { check_finite(grid, cells, initial.velocity, "fluid.initial.velocity"); });
+}
+
+void check_sides(const grid::Grid& grid, const config::Case& options)
+{
+  for (int a = 0; a < 3; ++a)
+    for (int end = 0; end < 2; ++end)
+      check_finite(grid, cells_beside(grid, a, end), options.boundary.sides[2 * a + end].value,
+                   fmt::format("boundary.{}.value", config::side_names[2 * a + end]));
+  // A flow that grows from rest brings in nothing at t = 0.
+  fluid::BoundaryConditions conditions(grid, build_boundaries(options.boundary));
+  for (const double t : {0.0, options.time.step, 0.5 * options.time.end, options.time.end})
+    conditions.evaluate_at(t);
+}
+
+}  // namespace
+
+void check_sheets_inside(const config::Case& options, const Structure& structure)
+{
+  if (!options.fluid)
+    return;
+  const std::vector<Vec3> positions = structure.accepted_positions(0.0);
+  for (const SheetRange& sheet : structure.sheets()) {
+    const config::MeshOptions& mesh = sheet.deforms ? options.shells[sheet.part].mesh : options.bodies[sheet.part].mesh;
+    refusing_at(mesh.mark, [&] {
+      check_sheet_inside(options, sheet, std::span(positions).subspan(sheet.first_vertex, sheet.vertices));
+    });
+  }
+}
+
+void check_flow(const grid::Grid& grid, const config::Case& options)
+{
+  check_initial_velocity(grid, options.fluid->initial);
+  refusing_at(options.boundary.mark, [&] { check_sides(grid, options); });
+}
+
+}  // namespace luff::simulation

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What can be wrong with a flow besides what its case file says key by key.
+#pragma once
+
+#include "config/options.hpp"
+#include "grid/grid.hpp"
+#include "simulation/structure.hpp"
+
+namespace luff::simulation {
+
+/// Refuses sheets that leave the domain or touch sides other than symmetry, slip and periodic ones.
+/// Throws InputError.
+void check_sheets_inside(const config::Case& options, const Structure& structure);
+
+/// Refuses velocities that are no numbers, at t = 0 in the cells and on the sides, and sides that bring in more than
+/// they let out at the start or later.  Takes a sweep over the cells.  Collective; throws InputError on every rank.
+void check_flow(const grid::Grid& grid, const config::Case& options);
+
+}  // namespace luff::simulation
