@@ -216,12 +216,12 @@ Report MultigridSolver::project(const View3<double>& U, const View<double>& p, d
   Report report;
   double norm = std::isfinite(outflow.norm) ? remove_means(net, /*by_volume=*/false) : outflow.norm;
   while (!meets(outflow, initial_norm, target) && report.iterations < target.max_iterations && std::isfinite(norm)) {
-    // Below round-off of the fluxes nothing can be gained, and conjugate gradients would only stir noise.
+    // Below round-off of the fluxes conjugate gradients would only stir noise.  But on stretched grids the round-off of
+    // the large cells can dominate the norm while a small one beside a sheet still holds something to correct, so a few
+    // digits are always worth trying.
     const double round_off = 2.0 * std::numeric_limits<double>::epsilon() * outflow.flux_norm;
-    if (round_off >= 0.5 * norm)
-      break;
     load_right_hand_side(1.0 / norm);
-    const double tolerance = std::max(round_off / norm, inner_tolerance(outflow, initial_norm, target));
+    const double tolerance = std::max(std::min(0.1, round_off / norm), inner_tolerance(outflow, initial_norm, target));
     const auto inner = inner_.solve(tolerance, target.max_iterations - report.iterations);
     report.iterations += inner.iterations;
     if (!inner.finite)
@@ -233,7 +233,7 @@ Report MultigridSolver::project(const View3<double>& U, const View<double>& p, d
     const Outflow corrected = fluxes_.measure(U, net);
     const double corrected_norm = remove_means(net, /*by_volume=*/false);
     ++report.refinements;
-    if (!(corrected_norm < 0.9 * norm)) {
+    if (!(corrected_norm < 0.9 * norm || corrected.divergence < 0.9 * outflow.divergence)) {
       fluxes_.correct<float>(U, e, -factor);
       outflow = fluxes_.measure(U, net);
       break;
