@@ -161,6 +161,7 @@ TriangleMesh read_mesh(const std::filesystem::path& file)
     fail_input("{}: meshes are read from .stl, .obj, .ply and .vtp files, not '{}'", file.string(), kind);
   check_readable(file);
   TriangleMesh mesh = triangles(*read(file), file);
+  validate_numbers(mesh, file.string());
   if (kind == ".stl")
     mesh = merge_vertices(mesh, stl_merge_tolerance);
   else if (kind == ".obj")

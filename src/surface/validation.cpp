@@ -22,7 +22,8 @@ namespace {
 /// Finds a point placed before, closer than a distance. Cells of that distance, so that only neighbours are looked at.
 class PointIndex {
  public:
-  PointIndex(const Vec3& origin, double distance) : origin_(origin), distance_(distance) {}
+  /// A distance of zero stands for points that all coincide; then any other serves.
+  PointIndex(const Vec3& origin, double distance) : origin_(origin), distance_(distance > 0 ? distance : 1) {}
 
   /// Number of an earlier point, or -1.
   int find(const Vec3& p) const
@@ -67,20 +68,6 @@ std::string corners(const TriangleMesh& mesh, int triangle)
   const auto& t = mesh.triangles[triangle];
   return fmt::format("triangle {} (vertices {}, {}, {}) at {}", triangle, t[0], t[1], t[2],
                      at(centroid(mesh, triangle)));
-}
-
-void check_numbers(const TriangleMesh& mesh, std::string_view where)
-{
-  if (mesh.triangles.empty())
-    fail_input("{}: the mesh has no triangles", where);
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    if (!mesh.vertices[v].allFinite())
-      fail_input("{}: vertex {} at {} is not finite; write the file again", where, v, at(mesh.vertices[v]));
-  for (int t = 0; t < mesh.n_triangles(); ++t)
-    for (const int v : mesh.triangles[t])
-      if (v < 0 || v >= mesh.n_vertices())
-        fail_input("{}: triangle {} uses vertex {}, but vertices are numbered 0..{}", where, t, v,
-                   mesh.n_vertices() - 1);
 }
 
 void check_shapes(const TriangleMesh& mesh, std::string_view where)
@@ -205,9 +192,23 @@ class OrientationCheck {
 
 }  // namespace
 
+void validate_numbers(const TriangleMesh& mesh, std::string_view where)
+{
+  if (mesh.triangles.empty())
+    fail_input("{}: the mesh has no triangles", where);
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (!mesh.vertices[v].allFinite())
+      fail_input("{}: vertex {} at {} is not finite; write the file again", where, v, at(mesh.vertices[v]));
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (const int v : mesh.triangles[t])
+      if (v < 0 || v >= mesh.n_vertices())
+        fail_input("{}: triangle {} uses vertex {}, but vertices are numbered 0..{}", where, t, v,
+                   mesh.n_vertices() - 1);
+}
+
 void validate(const TriangleMesh& mesh, std::string_view where)
 {
-  check_numbers(mesh, where);
+  validate_numbers(mesh, where);
   check_shapes(mesh, where);
   check_vertices(mesh, where);
   check_duplicates(mesh, where);

@@ -140,6 +140,7 @@ TEST_F(Readers, CornersAndOffsetsOutOfRangeAreRefusedWithoutVtkPrinting)
   EXPECT_NE(refusal(write("far.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n")), "accepted");
   EXPECT_NE(refusal(write("far.vtp", vtp("0 1 2 0 2 9", "3 6", 2))), "accepted");
   EXPECT_NE(refusal(write("offsets.vtp", vtp("0 1 2 0 2 3", "3 60", 2))), "accepted");
+  EXPECT_NE(refusal(write("point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n")), "accepted");
   EXPECT_NE(refusal(write("far.ply", ply_square().replace(ply_square().size() - 2, 1, "9"))), "accepted");
 }
 
