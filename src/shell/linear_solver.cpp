@@ -147,7 +147,7 @@ class BlockJacobiCg : public LinearSolver {
 
   void factorise(const BlockMatrix& A) override
   {
-    A_ = std::make_unique<BlockMatrix>(A);
+    matrix_ = std::make_unique<BlockMatrix>(A);
     for (int row = 0; row < A.pattern().n_rows(); ++row) {
       Mat3 D = A.block(A.pattern().slot(row, row));
       for (int d = 0; d < 3; ++d)
@@ -169,7 +169,7 @@ class BlockJacobiCg : public LinearSolver {
     double rz = r.dot(z);
     const int limit = 20 * static_cast<int>(b.size());
     for (int iteration = 0; r.norm() > target; ++iteration) {
-      Eigen::VectorXd Ap = *A_ * p;
+      Eigen::VectorXd Ap = *matrix_ * p;
       clear_held(Ap);
       const double curvature = p.dot(Ap);
       if (!(curvature > 0) || iteration == limit)
@@ -208,7 +208,7 @@ class BlockJacobiCg : public LinearSolver {
 
   std::vector<char> held_;
   std::vector<Mat3> inverse_;
-  std::unique_ptr<BlockMatrix> A_;
+  std::unique_ptr<BlockMatrix> matrix_;
 };
 
 }  // namespace

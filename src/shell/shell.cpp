@@ -40,7 +40,7 @@ Shell::Shell(surface::TriangleMesh reference, const Properties& properties, std:
   validate(properties_, name_);
   topology_ = surface::topology(reference_);
   size_ = surface::bounding_box(reference_.vertices).size();
-  X_ = surface::interleaved(reference_.vertices);
+  reference_positions_ = surface::interleaved(reference_.vertices);
   const Constraints held_and_mirrors = constraints(reference_, topology_, supports, name_);
   held_ = held_and_mirrors.held;
   const double h = properties_.thickness;
@@ -76,7 +76,7 @@ void Shell::make_elements(const BendingOperator& bending)
     const auto& X = reference_.vertices;
     e.gradient = area_coordinate_gradients(X[corner[0]], X[corner[1]], X[corner[2]]);
     e.area = surface::area(reference_, t);
-    e.kappa_0 = curvature(e, gather(e, X_));
+    e.kappa_0 = curvature(e, gather(e, reference_positions_));
     elements_.push_back(e);
   }
 }

@@ -34,7 +34,7 @@ class Shell {
   int n_vertices() const { return reference_.n_vertices(); }
   /// Diagonal of the reference's bounding box [L].
   double size() const { return size_; }
-  const Eigen::VectorXd& reference_positions() const { return X_; }
+  const Eigen::VectorXd& reference_positions() const { return reference_positions_; }
   /// 3n flags: 1 where the displacement is held at zero.
   const std::vector<char>& held() const { return held_; }
   const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
@@ -84,7 +84,7 @@ class Shell {
   Properties properties_;
   surface::Topology topology_;
   double size_ = 0;
-  Eigen::VectorXd X_;
+  Eigen::VectorXd reference_positions_;
   std::vector<char> held_;
   Rigidity rigidity_;
   std::vector<Image> images_;
