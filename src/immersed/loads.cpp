@@ -74,6 +74,12 @@ void for_each_hit_side(const grid::Grid& grid, const CutLinks& links, const Load
     }
 }
 
+/// Whether a side of the link (0: P's, 1: N's) is the sheet's + side.
+bool on_plus_side(const Crossing& hit, int link_side)
+{
+  return (link_side == 1) == (hit.side > 0);
+}
+
 /// Summed once and sent to all, so that every rank holds the same bits.
 void sum_over_ranks(const grid::Grid& grid, double* values, std::size_t count)
 {
@@ -117,16 +123,18 @@ void fill_from_neighbours(std::span<const std::array<int, 3>> triangles, std::si
 
 SheetLoads sheet_loads(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, std::size_t vertices)
 {
-  SheetLoads loads{std::vector<Vec3>(vertices, Vec3::Zero())};
+  SheetLoads loads{std::vector<Vec3>(vertices, Vec3::Zero()), std::vector<Vec3>(vertices, Vec3::Zero())};
   for_each_hit_side(grid, links, fields, [&](int q, int link_side, const HitTraction& t, double area) {
     const Crossing& hit = links.crossings()[q];
     Vec3 force = area * t.viscous;
     force[hit.axis] += link_side == 0 ? area * t.pressure : -area * t.pressure;
+    std::vector<Vec3>& side = on_plus_side(hit, link_side) ? loads.plus : loads.minus;
     const auto& corner = links.triangle(hit);
     for (int n = 0; n < 3; ++n)
-      loads.force[corner[n]] += hit.weights[n] * force;
+      side[corner[n]] += hit.weights[n] * force;
   });
-  sum_over_ranks(grid, loads.force.data()->data(), 3 * vertices);
+  sum_over_ranks(grid, loads.minus.data()->data(), 3 * vertices);
+  sum_over_ranks(grid, loads.plus.data()->data(), 3 * vertices);
   return loads;
 }
 
@@ -137,7 +145,7 @@ std::vector<SideTraction> side_tractions(const grid::Grid& grid, const CutLinks&
   std::vector<TriangleSums> sums(triangles.size());
   for_each_hit_side(grid, links, fields, [&](int q, int link_side, const HitTraction& t, double area) {
     const Crossing& hit = links.crossings()[q];
-    const int side = (link_side == 1) == (hit.side > 0) ? 1 : 0;
+    const int side = on_plus_side(hit, link_side) ? 1 : 0;
     // A_d samples |n_d| dS; weighted by |n_d| again, the three directions together count the area once.
     const double weight = area * std::abs(links.normal(q)[hit.axis]);
     SideSums& sum = sums[hit.triangle][side];

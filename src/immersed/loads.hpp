@@ -9,9 +9,11 @@
 
 namespace luff::immersed {
 
-/// What the flow does to a sheet.  The force on the flow is the opposite, link by link.
+/// What the flow does to a sheet, per vertex [M L/T^2].  The force on the flow is the opposite, link by link.
 struct SheetLoads {
-  std::vector<Vec3> force;  ///< on each vertex [M L/T^2]
+  std::vector<Vec3> minus;  ///< by the fluid on the - side
+  std::vector<Vec3> plus;   ///< by the fluid on the + side, where the normal points
+  [[nodiscard]] Vec3 force(std::size_t vertex) const { return minus[vertex] + plus[vertex]; }
 };
 
 /// Pressure and viscous traction on the two sides of one triangle: side 0 is the - side, side 1 the + side, where the

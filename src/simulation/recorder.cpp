@@ -89,8 +89,9 @@ void Recorder::open_tables()
     if (!options_.fluid)
       continue;
     std::vector<output::Column> columns{{"t", "time"}};
-    for (const output::Column& c : output::vector_columns("force", "force"))
-      columns.push_back(c);
+    for (const char* name : {"force", "force_minus", "force_plus"})
+      for (const output::Column& c : output::vector_columns(name, "force"))
+        columns.push_back(c);
     forces_.emplace_back(folder_, "forces-" + sheet.name + ".csv", columns);
   }
 }
@@ -202,12 +203,17 @@ void Recorder::warn_about_limits(const StepRecord& record)
 void Recorder::write_forces(double t)
 {
   const auto& sheets = simulation_.structure().sheets();
+  const immersed::SheetLoads& loads = simulation_.structure().loads();
   for (std::size_t s = 0; s < forces_.size(); ++s) {
-    Vec3 sum = Vec3::Zero();
-    for (int v = 0; v < sheets[s].vertices; ++v)
-      sum += simulation_.structure().force()[sheets[s].first_vertex + v];
+    Vec3 minus = Vec3::Zero();
+    Vec3 plus = Vec3::Zero();
+    for (int v = sheets[s].first_vertex; v < sheets[s].first_vertex + sheets[s].vertices; ++v) {
+      minus += loads.minus[v];
+      plus += loads.plus[v];
+    }
     std::vector<double> row{t};
-    append(row, sum);
+    for (const Vec3& force : {Vec3(minus + plus), minus, plus})
+      append(row, force);
     forces_[s].row(row);
   }
 }

@@ -37,9 +37,9 @@ coupling::FixedPointReport Simulation::advance(const TimeStep& step, Eigen::Vect
 {
   surroundings_->begin_step(step, structure_->motion(d, step));  // the geometry stays frozen at d^0
   const coupling::InterfaceMap flow_then_structure = [&](const Eigen::VectorXd& guess) {
-    const std::vector<Vec3> force = surroundings_->loads(structure_->velocity(guess, step));  // F
+    const immersed::SheetLoads loads = surroundings_->loads(structure_->velocity(guess, step));  // F
     const auto timer = profile_.time(Phase::Shell);
-    return structure_->solve(step, force, guess);  // S
+    return structure_->solve(step, loads, guess);  // S
   };
   return coupling::solve_fixed_point(flow_then_structure, d, *acceleration_, policy_.criterion,
                                      coupling::displacement_norm(structure_->length()));

@@ -7,14 +7,6 @@ namespace luff::simulation {
 
 namespace {
 
-Eigen::VectorXd interleaved(std::span<const Vec3> values)
-{
-  Eigen::VectorXd result(3 * static_cast<Eigen::Index>(values.size()));
-  for (std::size_t n = 0; n < values.size(); ++n)
-    result.segment<3>(3 * static_cast<Eigen::Index>(n)) = values[n];
-  return result;
-}
-
 void append(std::vector<Vec3>& to, const Eigen::VectorXd& values)
 {
   for (Eigen::Index n = 0; n < values.size(); n += 3)
@@ -53,7 +45,8 @@ Structure::Structure(std::vector<ShellPart> shells, std::vector<RigidSheet> rigi
     add_sheet(rigid_[s].name, false, static_cast<int>(s), rigid_[s].mesh);
   if (longest > 0.0)
     length_ = longest;
-  force_.assign(vertices_, Vec3::Zero());
+  const std::vector<Vec3> none(vertices_, Vec3::Zero());
+  loads_ = {none, none};
 }
 
 void Structure::add_sheet(const std::string& name, bool deforms, int part, const surface::TriangleMesh& mesh)
@@ -109,24 +102,29 @@ std::vector<Vec3> Structure::velocity(const Eigen::VectorXd& d, const TimeStep& 
   return motion(d, step).velocity;
 }
 
-Eigen::VectorXd Structure::solve(const TimeStep& step, std::span<const Vec3> force, const Eigen::VectorXd& d)
+/// Forces of the flow on one sheet, x y z of each vertex.
+Eigen::VectorXd Structure::force_on(const SheetRange& sheet) const
 {
-  force_.assign(force.begin(), force.end());
+  Eigen::VectorXd force(3 * sheet.vertices);
+  for (int v = 0; v < sheet.vertices; ++v)
+    force.segment<3>(3 * v) = loads_.force(sheet.first_vertex + v);
+  return force;
+}
+
+Eigen::VectorXd Structure::solve(const TimeStep& step, const immersed::SheetLoads& loads, const Eigen::VectorXd& d)
+{
+  loads_ = loads;
   Eigen::VectorXd image(unknowns_);
-  for (std::size_t s = 0; s < shells_.size(); ++s) {
-    const Eigen::VectorXd load = interleaved(force.subspan(sheets_[s].first_vertex, sheets_[s].vertices));
+  for (std::size_t s = 0; s < shells_.size(); ++s)
     image.segment(3 * sheets_[s].first_vertex, 3 * sheets_[s].vertices) =
-        shells_[s].dynamics->solve(step.t_new, step.dt, load, segment(d, s)).positions;
-  }
+        shells_[s].dynamics->solve(step.t_new, step.dt, force_on(sheets_[s]), segment(d, s)).positions;
   return image;
 }
 
 void Structure::accept(const TimeStep& step, const Eigen::VectorXd& d)
 {
-  for (std::size_t s = 0; s < shells_.size(); ++s) {
-    const auto force = std::span<const Vec3>(force_).subspan(sheets_[s].first_vertex, sheets_[s].vertices);
-    sharp_folds_ += shells_[s].dynamics->accept(segment(d, s), step.t_new, step.dt, interleaved(force)).n_sharp;
-  }
+  for (std::size_t s = 0; s < shells_.size(); ++s)
+    sharp_folds_ += shells_[s].dynamics->accept(segment(d, s), step.t_new, step.dt, force_on(sheets_[s])).n_sharp;
 }
 
 std::vector<Vec3> Structure::accepted_positions(double t) const

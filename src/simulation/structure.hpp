@@ -57,7 +57,8 @@ class Structure {
   [[nodiscard]] std::vector<Vec3> velocity(const Eigen::VectorXd& d, const TimeStep& step) const;
   /// Where the shells come to rest in the step under the forces of the flow (one per vertex of all sheets), from the
   /// accepted state; Newton starts from d.
-  [[nodiscard]] Eigen::VectorXd solve(const TimeStep& step, std::span<const Vec3> force, const Eigen::VectorXd& d);
+  [[nodiscard]] Eigen::VectorXd solve(const TimeStep& step, const immersed::SheetLoads& loads,
+                                      const Eigen::VectorXd& d);
   /// Commits the shells' positions d.
   void accept(const TimeStep& step, const Eigen::VectorXd& d);
 
@@ -67,8 +68,8 @@ class Structure {
   [[nodiscard]] const RigidSheet& rigid(int part) const { return rigid_[part]; }
   [[nodiscard]] int vertices() const { return vertices_; }
   [[nodiscard]] const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
-  /// Force of the flow on each vertex of all sheets in the last solve().
-  [[nodiscard]] const std::vector<Vec3>& force() const { return force_; }
+  /// What the flow did to each vertex of all sheets in the last solve().
+  [[nodiscard]] const immersed::SheetLoads& loads() const { return loads_; }
   /// Positions of all vertices at time t in the accepted state.
   [[nodiscard]] std::vector<Vec3> accepted_positions(double t) const;
   [[nodiscard]] std::vector<Vec3> accepted_velocities(double t, double dt) const;
@@ -80,6 +81,7 @@ class Structure {
 
  private:
   void add_sheet(const std::string& name, bool deforms, int part, const surface::TriangleMesh& mesh);
+  [[nodiscard]] Eigen::VectorXd force_on(const SheetRange& sheet) const;
   [[nodiscard]] Eigen::VectorXd segment(const Eigen::VectorXd& d, std::size_t shell) const;
 
   std::vector<ShellPart> shells_;
@@ -89,7 +91,7 @@ class Structure {
   int vertices_ = 0;
   Eigen::Index unknowns_ = 0;
   double length_ = 1.0;
-  std::vector<Vec3> force_;
+  immersed::SheetLoads loads_;
   long sharp_folds_ = 0;
 };
 

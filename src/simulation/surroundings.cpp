@@ -32,12 +32,12 @@ void Flow::begin_step(const TimeStep& step, const immersed::SheetMotion& predict
   solver_->begin_step(step, predicted);
 }
 
-std::vector<Vec3> Flow::loads(std::span<const Vec3> sheet_velocity)
+immersed::SheetLoads Flow::loads(std::span<const Vec3> sheet_velocity)
 {
   const poisson::Report projection = solver_->project(sheet_velocity);
   report_.pressure_iterations += projection.iterations;
   report_.divergence = projection.divergence;
-  return solver_->loads().force;
+  return solver_->loads();
 }
 
 }  // namespace luff::simulation

@@ -24,9 +24,10 @@ class Surroundings {
   /// What does not depend on the sheets' current velocity; freezes their geometry.
   virtual void begin_step(const TimeStep&, const immersed::SheetMotion&) {}
   /// Forces on the vertices when the sheets move with these velocities.
-  [[nodiscard]] virtual std::vector<Vec3> loads(std::span<const Vec3> sheet_velocity)
+  [[nodiscard]] virtual immersed::SheetLoads loads(std::span<const Vec3> sheet_velocity)
   {
-    return std::vector<Vec3>(sheet_velocity.size(), Vec3::Zero());
+    const std::vector<Vec3> none(sheet_velocity.size(), Vec3::Zero());
+    return {none, none};
   }
   virtual void accept() {}
   [[nodiscard]] virtual FlowReport report() const { return {}; }
@@ -46,7 +47,7 @@ class Flow : public Surroundings {
     return {solver_->convective_rate(), solver_->diffusive_rate()};
   }
   void begin_step(const TimeStep& step, const immersed::SheetMotion& predicted) override;
-  [[nodiscard]] std::vector<Vec3> loads(std::span<const Vec3> sheet_velocity) override;
+  [[nodiscard]] immersed::SheetLoads loads(std::span<const Vec3> sheet_velocity) override;
   void accept() override { solver_->accept(); }
   [[nodiscard]] FlowReport report() const override { return report_; }
   [[nodiscard]] fluid::FlowSolver* flow() override { return solver_.get(); }
