@@ -193,7 +193,7 @@ void Multigrid::smooth(Level& level, Transfer& correction)
   RowExchange& halo = level.exchange();
   const IndexBox& owned = level.layout().owned;
   const int threads = threads_for(owned);
-  correction.prolong_extras();
+  correction.begin_prolongation();
   const int stages = 2 * sweeps + 1;
   const auto stage = [&](int s, int k) {
     if (s == 0)

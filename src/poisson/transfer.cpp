@@ -5,23 +5,25 @@
 
 namespace luff::poisson {
 
-/// Rows of a thread, with room for one value before and after: index 0 of a row is `pad` values into its array.
+namespace {
+
+constexpr int pad = 16;
+
+}  // namespace
+
+/// Sums along one row, split by parity of i: the even cells from `pad` on, the odd ones from `pad` + split_ on, so that
+/// the places next to either end hold zeros.
 struct Transfer::Scratch {
-  static constexpr int pad = 16;
-  Scratch(int fine_cells, int coarse_cells)
+  Scratch(std::ptrdiff_t split, int coarse_cells)
+      : all(2 * split + pad, 0.0f),
+        own(2 * split + pad, 0.0f),
+        coarse(coarse_cells + 2 * pad, 0.0f),
+        low(coarse_cells + 2 * pad, 0.0f),
+        high(coarse_cells + 2 * pad, 0.0f)
   {
-    const int half = (fine_cells + 1) / 2 + 2 * pad;
-    for (auto* rows : {&all, &own})
-      for (auto& row : *rows)
-        row.assign(half, 0.0f);
-    for (auto* row : {&natural, &to_left, &to_right})
-      row->assign(fine_cells + 2 * pad, 0.0f);
-    for (auto* row : {&coarse, &blend})
-      row->assign(coarse_cells + 2 + 2 * pad, 0.0f);
   }
-  std::array<std::vector<float>, 2> all, own;  // weighted and plain sums of residual rows, per parity of i
-  std::vector<float> natural, to_left, to_right;
-  std::vector<float> coarse, blend;
+  std::vector<float> all, own;           // fine residuals with the weights along j and k, and plainly
+  std::vector<float> coarse, low, high;  // what a coarse cell, its lower and its upper neighbour get
 };
 
 Transfer::Transfer(Level& fine, Level& coarse, std::array<Merge, 3> merges)
@@ -41,32 +43,25 @@ void Transfer::make_tables()
   const Merge& x = merges_[0];
   const int n = fine_.box().lines[0].n;
   const int N = coarse_.box().lines[0].n;
+  split_ = (n + 1) / 2 + 2 * pad;
+  natural_stride_ = N + 2 * pad;
+  natural_.assign(natural_stride_ * (home_.extent(1) + 2) * (home_.extent(2) + 2) + 2 * pad, 0.0f);
+  for (auto& weight : weight_)
+    weight.assign((n + 1) / 2 + 2 * pad, 0.0f);
   regular_ = true;
-  for (int q = 0; q < 2; ++q)
-    weight_[q].assign((n + 1) / 2 + 2 * Scratch::pad, 0.0f);
-  weight_left_.assign(n, 0.0f);
-  weight_right_.assign(n, 0.0f);
   for (int i = 0; i < n; ++i) {
-    const auto w = static_cast<float>(x.weight[i]);
     regular_ = regular_ && x.parent[i] == i / 2;
-    weight_[i & 1][Scratch::pad + (i >> 1)] = w;
-    parent_[i & 1].push_back(x.parent[i]);
-    other_[i & 1].push_back(x.parent[i] + x.towards[i]);
-    (x.towards[i] < 0 ? weight_left_ : weight_right_)[i] = w;
+    weight_[i & 1][pad + (i >> 1)] = static_cast<float>(x.weight[i]);
+    child_[i & 1].push_back(2 * x.parent[i] + (i > x.first[x.parent[i]] ? 1 : 0));
   }
+  const auto place = [&](int i) { return static_cast<int>(pad + (i & 1) * split_ + (i >> 1)); };
   for (int I = 0; I < N; ++I) {
-    first_.push_back(x.first[I]);
-    last_.push_back(x.first[I + 1] - 1);
+    const bool pair = x.first[I + 1] - x.first[I] == 2;
+    first_.push_back(place(x.first[I]));
+    second_.push_back(pair ? place(x.first[I] + 1) : 0);  // place 0 always holds zero
+    weight_first_.push_back(static_cast<float>(x.weight[x.first[I]]));
+    weight_second_.push_back(pair ? static_cast<float>(x.weight[x.first[I] + 1]) : 0.0f);
   }
-}
-
-bool Transfer::reads(const Cuts& fine_cuts, Unknown x) const
-{
-  if (!is_cell(x) || fine_.residual_colours() == Colours::Both)
-    return true;
-  const Index3 c = fine_.box().cell(x);
-  (void)fine_cuts;
-  return ((c[0] + c[1] + c[2]) & 1) == 0;
 }
 
 void Transfer::set_cuts(const Cuts& fine_cuts, const Cuts& coarse_cuts)
@@ -74,10 +69,14 @@ void Transfer::set_cuts(const Cuts& fine_cuts, const Cuts& coarse_cuts)
   restriction_.clear();
   prolongation_.clear();
   const IndexBox& owned = fine_.layout().owned;
+  const auto colour = [&](Unknown x) {
+    const Index3 c = fine_.box().cell(x);
+    return (c[0] + c[1] + c[2]) & 1;
+  };
   const int planes = owned.extent(2);
   std::vector<std::pair<int, Weight>> by_plane;
   for (const Interpolation& p : fine_cuts.interpolation) {
-    if (!reads(fine_cuts, p.fine))
+    if (is_cell(p.fine) && !includes(fine_.residual_colours(), colour(p.fine)))
       continue;
     const Index3 C = is_cell(p.coarse) ? coarse_.box().cell(p.coarse) : coarse_cuts.extras[extra_number(p.coarse)].cell;
     if (home_.contains(C))
@@ -101,106 +100,118 @@ void Transfer::set_cuts(const Cuts& fine_cuts, const Cuts& coarse_cuts)
     first_of_plane_[p + 1] += first_of_plane_[p];
 }
 
-/// Adds a row of residuals; `own` when it belongs to the coarse row itself.
-void Transfer::add_row(int j, int k, float weight, bool own, Scratch& s) const
+/// Rows of a coarse row's own children, and the nearest rows of its neighbours that interpolate from it too.
+void Transfer::gather_rows(int J, int K, int colour, std::array<Rows, 2>& rows) const
 {
+  const Merge& y = merges_[1];
+  const Merge& z = merges_[2];
   const Layout& layout = fine_.layout();
-  for (int colour = 0; colour < 2; ++colour) {
-    if (!includes(fine_.residual_colours(), colour))
-      continue;
-    const int q = Layout::parity(j, k, colour);
-    const int m = layout.count(q);
-    const float* __restrict r = fine_.r.data() + layout.start(j, k, colour);
-    float* __restrict all = s.all[q].data() + Scratch::pad;
-    float* __restrict plain = s.own[q].data() + Scratch::pad;
-    if (own) {
-#pragma omp simd
-      for (int n = 0; n < m; ++n) {
-        all[n] += weight * r[n];
-        plain[n] += r[n];
-      }
-    } else {
-#pragma omp simd
-      for (int n = 0; n < m; ++n)
-        all[n] += weight * r[n];
-    }
+  const auto add = [&](int j, int k, double weight, bool own) {
+    Rows& r = rows[Layout::parity(j, k, colour)];
+    const int n = own ? r.own++ : r.beyond++;
+    r.row[n] = fine_.r.data() + layout.start(j, k, colour);
+    r.weight[n] = static_cast<float>(weight);
+  };
+  const auto add_beyond = [&](int axis, const Merge& merge, int C, int side, auto visit) {
+    const int towards = side == 0 ? 1 : -1;
+    const int i = side == 0 ? merge.first[C] - 1 : merge.first[C + 1];
+    const int i_global = fine_.box().lines[axis].neighbour(i + towards, side);
+    if (i_global >= 0 && merge.towards[i_global] == towards && merge.weight[i_global] > 0.0)
+      visit(i, merge.weight[i_global]);
+  };
+  for (int k = z.first[K]; k < z.first[K + 1]; ++k)
+    for (int j = y.first[J]; j < y.first[J + 1]; ++j)
+      add(j, k, 1.0 - y.weight[j] - z.weight[k], true);
+  for (int side = 0; side < 2; ++side) {
+    add_beyond(1, y, J, side, [&](int j, double w) {
+      for (int k = z.first[K]; k < z.first[K + 1]; ++k)
+        add(j, k, w, false);
+    });
+    add_beyond(2, z, K, side, [&](int k, double w) {
+      for (int j = y.first[J]; j < y.first[J + 1]; ++j)
+        add(j, k, w, false);
+    });
   }
 }
 
-void Transfer::gather_rows(int J, int K, Scratch& s) const
+void Transfer::add_rows(const Rows& rows, int parity, Scratch& s) const
 {
-  for (auto* rows : {&s.all, &s.own})
-    for (auto& row : *rows)
-      std::fill(row.begin(), row.end(), 0.0f);
-  const Merge& y = merges_[1];
-  const Merge& z = merges_[2];
-  const Line& line_y = fine_.box().lines[1];
-  const Line& line_z = fine_.box().lines[2];
-  for (int k = z.first[K]; k < z.first[K + 1]; ++k)
-    for (int j = y.first[J]; j < y.first[J + 1]; ++j)
-      add_row(j, k, static_cast<float>(1.0 - y.weight[j] - z.weight[k]), true, s);
-  // The nearest rows of neighbouring coarse rows interpolate from this one too.
-  for (int side = 0; side < 2; ++side) {
-    const int towards = side == 0 ? 1 : -1;
-    const int j = side == 0 ? y.first[J] - 1 : y.first[J + 1];
-    const int j_global = line_y.neighbour(j + towards, side);
-    if (j_global >= 0 && y.towards[j_global] == towards && y.weight[j_global] > 0.0)
-      for (int k = z.first[K]; k < z.first[K + 1]; ++k)
-        add_row(j, k, static_cast<float>(y.weight[j_global]), false, s);
-    const int k = side == 0 ? z.first[K] - 1 : z.first[K + 1];
-    const int k_global = line_z.neighbour(k + towards, side);
-    if (k_global >= 0 && z.towards[k_global] == towards && z.weight[k_global] > 0.0)
-      for (int jj = y.first[J]; jj < y.first[J + 1]; ++jj)
-        add_row(jj, k, static_cast<float>(z.weight[k_global]), false, s);
+  const int m = fine_.layout().count(parity);
+  float* __restrict all = s.all.data() + pad + parity * split_;
+  float* __restrict own = s.own.data() + pad + parity * split_;
+  // Rows that are missing repeat an existing one with weight zero.
+  const float* any = rows.own > 0 ? rows.row[0] : rows.beyond > 2 ? rows.row[2] : nullptr;
+  if (any == nullptr)
+    return;
+  std::array<const float*, 6> row;
+  std::array<float, 6> w;
+  for (int n = 0; n < 6; ++n) {
+    const bool there = n < 2 ? n < rows.own : n < rows.beyond;
+    row[n] = there ? rows.row[n] : any;
+    w[n] = there ? rows.weight[n] : 0.0f;
+  }
+  const float own0 = rows.own > 0 ? 1.0f : 0.0f;
+  const float own1 = rows.own > 1 ? 1.0f : 0.0f;
+  const float* __restrict r0 = row[0];
+  const float* __restrict r1 = row[1];
+  const float* __restrict r2 = row[2];
+  const float* __restrict r3 = row[3];
+  const float* __restrict r4 = row[4];
+  const float* __restrict r5 = row[5];
+#pragma omp simd
+  for (int n = 0; n < m; ++n) {
+    all[n] += w[0] * r0[n] + w[1] * r1[n] + w[2] * r2[n] + w[3] * r3[n] + w[4] * r4[n] + w[5] * r5[n];
+    own[n] += own0 * r0[n] + own1 * r1[n];
   }
 }
 
 /// F_I = sum over children (all_i - w_i own_i) + w own of the cells next to I in its neighbours.
-void Transfer::combine_along_row(int J, int K, Scratch& s) const
+void Transfer::combine_regular(Scratch& s) const
 {
-  constexpr int pad = Scratch::pad;
+  const int N = coarse_.box().lines[0].n;
+  float* __restrict F = s.coarse.data() + pad;
+  const float* __restrict w0 = weight_[0].data() + pad;
+  const float* __restrict w1 = weight_[1].data() + pad;
+  const float* __restrict a0 = s.all.data() + pad;
+  const float* __restrict a1 = a0 + split_;
+  const float* __restrict b0 = s.own.data() + pad;
+  const float* __restrict b1 = b0 + split_;
+#pragma omp simd
+  for (int I = 0; I < N; ++I)
+    F[I] = a0[I] + a1[I] - w0[I] * b0[I] - w1[I] * b1[I] + w1[I - 1] * b1[I - 1] + w0[I + 1] * b0[I + 1];
+}
+
+void Transfer::combine_irregular(Scratch& s) const
+{
+  const int N = coarse_.box().lines[0].n;
+  float* __restrict F = s.coarse.data() + pad;
+  float* __restrict low = s.low.data() + pad;
+  float* __restrict high = s.high.data() + pad;
+  const float* __restrict all = s.all.data();
+  const float* __restrict own = s.own.data();
+  const int* __restrict first = first_.data();
+  const int* __restrict second = second_.data();
+  const float* __restrict w_first = weight_first_.data();
+  const float* __restrict w_second = weight_second_.data();
+#pragma omp simd
+  for (int I = 0; I < N; ++I) {
+    low[I] = w_first[I] * own[first[I]];
+    high[I] = w_second[I] * own[second[I]];
+    F[I] = all[first[I]] + all[second[I]] - low[I] - high[I];
+  }
+#pragma omp simd
+  for (int I = 0; I < N; ++I)
+    F[I] += high[I - 1] + low[I + 1];
+}
+
+void Transfer::store_coarse_row(int J, int K, Scratch& s) const
+{
   const int n = fine_.box().lines[0].n;
   const int N = coarse_.box().lines[0].n;
-  const bool periodic = fine_.box().lines[0].periodic;
   float* __restrict F = s.coarse.data() + pad;
-  const auto plain = [&](int i) { return s.own[i & 1][pad + (i >> 1)]; };
-  if (regular_) {
-    const float* __restrict we = weight_[0].data() + pad;
-    const float* __restrict wo = weight_[1].data() + pad;
-    const float* __restrict ae = s.all[0].data() + pad;
-    const float* __restrict ao = s.all[1].data() + pad;
-    const float* __restrict be = s.own[0].data() + pad;
-    const float* __restrict bo = s.own[1].data() + pad;
-#pragma omp simd
-    for (int I = 0; I < N; ++I)
-      F[I] = ae[I] + ao[I] - we[I] * be[I] - wo[I] * bo[I] + wo[I - 1] * bo[I - 1] + we[I + 1] * be[I + 1];
-  } else {
-    float* __restrict natural = s.natural.data() + pad;
-    float* __restrict to_left = s.to_left.data() + pad;
-    float* __restrict to_right = s.to_right.data() + pad;
-    for (int q = 0; q < 2; ++q) {
-      const float* __restrict a = s.all[q].data() + pad;
-      const float* __restrict b = s.own[q].data() + pad;
-      const int m = (n - q + 1) / 2;
-#pragma omp simd
-      for (int t = 0; t < m; ++t) {
-        const int i = 2 * t + q;
-        to_left[i] = weight_left_[i] * b[t];
-        to_right[i] = weight_right_[i] * b[t];
-        natural[i] = a[t] - to_left[i] - to_right[i];
-      }
-    }
-    const int* __restrict first = first_.data();
-    const int* __restrict last = last_.data();
-#pragma omp simd
-    for (int I = 0; I < N; ++I) {
-      const float second = natural[last[I]];
-      F[I] = natural[first[I]] + (last[I] > first[I] ? second : 0.0f) + to_right[first[I] - 1] + to_left[last[I] + 1];
-    }
-  }
-  if (periodic) {
-    F[0] += weight_right_[n - 1] * plain(n - 1);
-    F[N - 1] += weight_left_[0] * plain(0);
+  if (fine_.box().lines[0].periodic) {
+    F[0] += weight_second_[N - 1] * s.own[pad + ((n - 1) & 1) * split_ + ((n - 1) >> 1)];
+    F[N - 1] += weight_first_[0] * s.own[pad];
   }
   const Layout& layout = coarse_.layout();
   for (int q = 0; q < 2; ++q) {
@@ -214,8 +225,21 @@ void Transfer::combine_along_row(int J, int K, Scratch& s) const
 
 void Transfer::restrict_row(int J, int K, Scratch& s) const
 {
-  gather_rows(J, K, s);
-  combine_along_row(J, K, s);
+  std::fill(s.all.begin(), s.all.end(), 0.0f);
+  std::fill(s.own.begin(), s.own.end(), 0.0f);
+  for (int colour = 0; colour < 2; ++colour) {
+    if (!includes(fine_.residual_colours(), colour))
+      continue;
+    std::array<Rows, 2> rows;
+    gather_rows(J, K, colour, rows);
+    for (int parity = 0; parity < 2; ++parity)
+      add_rows(rows[parity], parity, s);
+  }
+  if (regular_)
+    combine_regular(s);
+  else
+    combine_irregular(s);
+  store_coarse_row(J, K, s);
 }
 
 void Transfer::restrict_residual()
@@ -228,7 +252,7 @@ void Transfer::restrict_residual()
     std::fill_n(coarse_.f.data() + coarse_.layout().size, coarse_.extras(), 0.0f);
 #pragma omp parallel num_threads(threads_for(fine_.layout().owned))
   {
-    Scratch s(fine_.box().lines[0].n, coarse_.box().lines[0].n);
+    Scratch s(split_, coarse_.box().lines[0].n);
 #pragma omp for schedule(static)
     for (int K = home_.lo[2]; K < home_.hi[2]; ++K)
       for (int J = home_.lo[1]; J < home_.hi[1]; ++J)
@@ -240,71 +264,90 @@ void Transfer::restrict_residual()
     fine_.sum_over_ranks(coarse_.f);
 }
 
-/// coarse = U along the coarse row that holds fine row (j, k); blend = U with the interpolation along j and k.
-void Transfer::interpolate_rows(int j, int k, Scratch& s) const
+void Transfer::begin_prolongation()
 {
   const Layout& layout = coarse_.layout();
-  const int J = merges_[1].parent[j];
-  const int K = merges_[2].parent[k];
-  const int J2 = J + merges_[1].towards[j];
-  const int K2 = K + merges_[2].towards[k];
-  const auto wj = static_cast<float>(merges_[1].weight[j]);
-  const auto wk = static_cast<float>(merges_[2].weight[k]);
-  const float w0 = 1.0f - wj - wk;
   const int N = coarse_.box().lines[0].n;
-  float* __restrict coarse = s.coarse.data() + Scratch::pad;
-  float* __restrict blend = s.blend.data() + Scratch::pad;
-  for (int q = 0; q < 2; ++q) {
-    const auto row = [&](int Jr, int Kr) { return coarse_.u.data() + layout.start(Jr, Kr, (Jr + Kr + q) & 1); };
-    const float* __restrict U = row(J, K);
-    const float* __restrict Uj = row(J2, K);
-    const float* __restrict Uk = row(J, K2);
-    const int m = (N - q + 1) / 2;
+#pragma omp parallel for num_threads(threads_for(home_)) schedule(static)
+  for (int K = home_.lo[2] - 1; K <= home_.hi[2]; ++K)
+    for (int J = home_.lo[1] - 1; J <= home_.hi[1]; ++J) {
+      float* __restrict out = natural_.data() + natural_row(J, K);
+      const float* __restrict even = coarse_.u.data() + layout.start(J, K, (J + K) & 1);
+      const float* __restrict odd = coarse_.u.data() + layout.start(J, K, (J + K + 1) & 1);
 #pragma omp simd
-    for (int t = 0; t < m; ++t) {
-      coarse[2 * t + q] = U[t];
-      blend[2 * t + q] = w0 * U[t] + wj * Uj[t] + wk * Uk[t];
+      for (int t = 0; t < (N + 1) / 2; ++t) {
+        out[2 * t] = even[t];
+        out[2 * t + 1] = odd[t];
+      }
+      out[-1] = coarse_.u[layout.index(-1, J, K)];
+      out[N] = coarse_.u[layout.index(N, J, K)];
     }
-  }
-  coarse[-1] = coarse_.u[layout.index(-1, J, K)];
-  coarse[N] = coarse_.u[layout.index(N, J, K)];
+  prolong_extras();
 }
 
-void Transfer::add_interpolated(int j, int k, const Scratch& s)
+void Transfer::add_regular(int j, int k, int colour)
 {
   const Layout& layout = fine_.layout();
-  const float* __restrict coarse = s.coarse.data() + Scratch::pad;
-  const float* __restrict blend = s.blend.data() + Scratch::pad;
-  for (int colour = 0; colour < 2; ++colour) {
-    if (!includes(fine_.residual_colours(), colour))
-      continue;
-    const int q = Layout::parity(j, k, colour);
-    const int m = layout.count(q);
-    const float* __restrict w = weight_[q].data() + Scratch::pad;
-    float* __restrict u = fine_.u.data() + layout.start(j, k, colour);
-    if (regular_) {
-      const int towards = q == 0 ? -1 : 1;
+  const int J = merges_[1].parent[j];
+  const int K = merges_[2].parent[k];
+  const auto wj = static_cast<float>(merges_[1].weight[j]);
+  const auto wk = static_cast<float>(merges_[2].weight[k]);
+  const int q = Layout::parity(j, k, colour);
+  const int m = layout.count(q);
+  const float* __restrict w = weight_[q].data() + pad;
+  const float* __restrict U = natural_.data() + natural_row(J, K);
+  const float* __restrict Ui = U + (q == 0 ? -1 : 1);
+  const float* __restrict Uj = natural_.data() + natural_row(J + merges_[1].towards[j], K);
+  const float* __restrict Uk = natural_.data() + natural_row(J, K + merges_[2].towards[k]);
+  float* __restrict u = fine_.u.data() + layout.start(j, k, colour);
 #pragma omp simd
-      for (int n = 0; n < m; ++n)
-        u[n] += blend[n] + w[n] * (coarse[n + towards] - coarse[n]);
-    } else {
-      const int* __restrict p = parent_[q].data();
-      const int* __restrict o = other_[q].data();
+  for (int n = 0; n < m; ++n)
+    u[n] += U[n] + w[n] * (Ui[n] - U[n]) + wj * (Uj[n] - U[n]) + wk * (Uk[n] - U[n]);
+}
+
+/// First the values for the first and second child of every coarse cell of the row, then each fine cell picks its own.
+void Transfer::add_irregular(int j, int k, int colour, std::vector<float>& children)
+{
+  const Layout& layout = fine_.layout();
+  const int J = merges_[1].parent[j];
+  const int K = merges_[2].parent[k];
+  const int N = coarse_.box().lines[0].n;
+  const auto wj = static_cast<float>(merges_[1].weight[j]);
+  const auto wk = static_cast<float>(merges_[2].weight[k]);
+  const float* __restrict w_first = weight_first_.data();
+  const float* __restrict w_second = weight_second_.data();
+  const float* __restrict U = natural_.data() + natural_row(J, K);
+  const float* __restrict Uj = natural_.data() + natural_row(J + merges_[1].towards[j], K);
+  const float* __restrict Uk = natural_.data() + natural_row(J, K + merges_[2].towards[k]);
+  float* __restrict value = children.data();
 #pragma omp simd
-      for (int n = 0; n < m; ++n)
-        u[n] += blend[p[n]] + w[n] * (coarse[o[n]] - coarse[p[n]]);
-    }
+  for (int I = 0; I < N; ++I) {
+    const float blend = U[I] + wj * (Uj[I] - U[I]) + wk * (Uk[I] - U[I]);
+    value[2 * I] = blend + w_first[I] * (U[I - 1] - U[I]);
+    value[2 * I + 1] = blend + w_second[I] * (U[I + 1] - U[I]);
   }
+  const int q = Layout::parity(j, k, colour);
+  const int m = layout.count(q);
+  const int* __restrict child = child_[q].data();
+  float* __restrict u = fine_.u.data() + layout.start(j, k, colour);
+#pragma omp simd
+  for (int n = 0; n < m; ++n)
+    u[n] += value[child[n]];
 }
 
 void Transfer::prolong_plane(int k)
 {
   const IndexBox& owned = fine_.layout().owned;
-  Scratch s(1, coarse_.box().lines[0].n);
-  for (int j = owned.lo[1]; j < owned.hi[1]; ++j) {
-    interpolate_rows(j, k, s);
-    add_interpolated(j, k, s);
-  }
+  std::vector<float> children(regular_ ? 0 : 2 * coarse_.box().lines[0].n);
+  for (int j = owned.lo[1]; j < owned.hi[1]; ++j)
+    for (int colour = 0; colour < 2; ++colour) {
+      if (!includes(fine_.residual_colours(), colour))
+        continue;
+      if (regular_)
+        add_regular(j, k, colour);
+      else
+        add_irregular(j, k, colour, children);
+    }
   const int plane = k - owned.lo[2];
   for (int p = first_of_plane_[plane]; p < first_of_plane_[plane + 1]; ++p)
     fine_.u[prolongation_[p].fine] += prolongation_[p].weight * coarse_.u[prolongation_[p].coarse];

@@ -22,9 +22,10 @@ class Transfer {
 
   /// coarse.f = P^T fine.r.  Collective; every rank gets the whole of a coarse level that is not shared out.
   void restrict_residual();
-  /// fine.u += P coarse.u on plane k of the fine level, where the next half sweep reads it; and on extra unknowns.
+  /// Reads coarse.u for what follows, and adds P coarse.u to extra unknowns.  Collective.
+  void begin_prolongation();
+  /// fine.u += P coarse.u on plane k of the fine level, where the next half sweep reads it.
   void prolong_plane(int k);
-  void prolong_extras();
 
  private:
   struct Weight {
@@ -32,26 +33,43 @@ class Transfer {
     float weight;
   };
   struct Scratch;
+  /// The six rows of residuals of one parity that a coarse row gathers: two of its own, and one beyond each side.
+  struct Rows {
+    std::array<const float*, 6> row{};
+    std::array<float, 6> weight{};
+    int own = 0;
+    int beyond = 2;
+  };
   void make_tables();
-  [[nodiscard]] bool reads(const Cuts& fine_cuts, Unknown x) const;
+  void prolong_extras();
   void restrict_row(int J, int K, Scratch& s) const;
-  void gather_rows(int J, int K, Scratch& s) const;
-  void add_row(int j, int k, float weight, bool own, Scratch& s) const;
-  void combine_along_row(int J, int K, Scratch& s) const;
-  void interpolate_rows(int j, int k, Scratch& s) const;
-  void add_interpolated(int j, int k, const Scratch& s);
+  void gather_rows(int J, int K, int colour, std::array<Rows, 2>& rows) const;
+  void add_rows(const Rows& rows, int parity, Scratch& s) const;
+  void combine_regular(Scratch& s) const;
+  void combine_irregular(Scratch& s) const;
+  void store_coarse_row(int J, int K, Scratch& s) const;
+  void add_regular(int j, int k, int colour);
+  void add_irregular(int j, int k, int colour, std::vector<float>& children);
+  [[nodiscard]] std::ptrdiff_t natural_row(int J, int K) const
+  {
+    return 16 + (J - home_.lo[1] + 1) * natural_stride_ +
+           (K - home_.lo[2] + 1) * natural_stride_ * (home_.extent(1) + 2);
+  }
 
   Level& fine_;
   Level& coarse_;
   std::array<Merge, 3> merges_;
-  IndexBox home_;                                   // coarse cells whose children this rank owns
-  bool regular_ = false;                            // coarse cell I holds the cells 2 I and 2 I + 1 of a row
-  std::array<std::vector<float>, 2> weight_;        // per parity of i, with one more on each side
-  std::array<std::vector<int>, 2> parent_, other_;  // per parity of i
-  std::vector<float> weight_left_, weight_right_;   // by i: w towards -1, towards 1
-  std::vector<int> first_, last_;                   // by I
-  std::vector<Weight> restriction_;                 // by coarse owner
-  std::vector<Weight> prolongation_;                // by plane of the fine cell, extras last
+  IndexBox home_;                                    // coarse cells whose children this rank owns
+  bool regular_ = false;                             // coarse cell I holds the cells 2 I and 2 I + 1 of a row
+  std::array<std::vector<float>, 2> weight_;         // of fine cells, per parity of i, padded on both sides
+  std::array<std::vector<int>, 2> child_;            // of fine cells, per parity of i: 2 parent + (0 first, 1 second)
+  std::vector<int> first_, second_;                  // of coarse cells: places of their children in split rows
+  std::vector<float> weight_first_, weight_second_;  // of coarse cells: weights of their children
+  std::ptrdiff_t split_ = 0;                         // from even to odd cells in split rows
+  std::vector<float> natural_;                       // coarse.u, i fastest, with one layer around home
+  std::ptrdiff_t natural_stride_ = 0;
+  std::vector<Weight> restriction_;   // by coarse owner
+  std::vector<Weight> prolongation_;  // by plane of the fine cell, extras last
   std::vector<int> first_of_plane_;
 };
 

@@ -91,9 +91,9 @@ struct Pair {
     for (int k = 0; k < coarse_box.cells()[2]; ++k)
       coarse->exchange().close_plane(coarse->u.data(), k, Colours::Both);
     coarse->exchange().exchange(coarse->u.data(), Colours::Both);
+    transfer->begin_prolongation();
     for (int k = 0; k < fine_box.cells()[2]; ++k)
       transfer->prolong_plane(k);
-    transfer->prolong_extras();
   }
   [[nodiscard]] bool interpolated(int colour, Unknown x) const
   {
