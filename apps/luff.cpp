@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <thread>
 
@@ -51,6 +52,8 @@ luff::simulation::Threads choose_threads(int wanted)
 
 [[noreturn]] void plot(const std::string& run)
 {
+  if (!std::filesystem::is_directory(run))
+    luff::fail_input("plot: {} is not a folder; give the folder of a run, such as runs/flag/001", run);
   const char* root = std::getenv("LUFF_ROOT");
   const std::string script = std::string(root != nullptr ? root : LUFF_SOURCE_DIR) + "/tools/plot.py";
   MPI_Finalize();

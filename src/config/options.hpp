@@ -30,7 +30,7 @@ struct TimeOptions {
 
 struct InitialOptions {
   VectorExpression velocity;
-  Mark mark;
+  Mark mark = {};
 
   bool operator==(const InitialOptions&) const = default;
 };
@@ -59,7 +59,7 @@ struct AxisOptions {
   double to = 0.0;
   int cells = 0;  ///< in all, with those of `refine`
   std::optional<RefineOptions> refine;
-  Mark mark;
+  Mark mark = {};
 
   bool operator==(const AxisOptions&) const = default;
 };
@@ -70,7 +70,7 @@ enum class GridKind { Box };
 struct GridOptions {
   GridKind kind = GridKind::Box;
   std::array<AxisOptions, 3> axes;  ///< x, y, z
-  Mark mark;
+  Mark mark = {};
 
   bool operator==(const GridOptions&) const = default;
 };
@@ -90,7 +90,7 @@ inline constexpr std::array<const char*, 6> side_names{"x_min", "x_max", "y_min"
 /// [boundary]; only with a fluid. Periodic sides come in pairs.
 struct BoundaryOptions {
   std::array<SideOptions, 6> sides;  ///< in the order of side_names
-  Mark mark;
+  Mark mark = {};
 
   bool operator==(const BoundaryOptions&) const = default;
 };
@@ -110,7 +110,7 @@ struct MeshOptions {
   MeshPattern pattern = MeshPattern::Diagonal;
 
   std::optional<std::filesystem::path> file;  ///< absolute once read
-  Mark mark;
+  Mark mark = {};
 
   bool operator==(const MeshOptions&) const = default;
 };
@@ -175,7 +175,7 @@ struct SupportOptions {
   WhereOptions where;
   std::optional<SupportType> type;
   std::optional<std::vector<Component>> fixed;  ///< displacement components held at zero
-  Mark mark;
+  Mark mark = {};
 
   bool operator==(const SupportOptions&) const = default;
 };
@@ -186,7 +186,7 @@ struct LoadOptions {
   std::optional<VectorExpression> force;     ///< total, shared by the vertices
   std::optional<Expression> pressure;        ///< follower, per current area, along the normal
   std::optional<VectorExpression> traction;  ///< dead, per reference area
-  Mark mark;
+  Mark mark = {};
 
   bool operator==(const LoadOptions&) const = default;
 };
@@ -203,7 +203,7 @@ struct ShellOptions {
   Vec3 gravity = Vec3::Zero();
   std::vector<SupportOptions> supports;
   std::vector<LoadOptions> loads;
-  Mark mark;
+  Mark mark = {};
 
   bool operator==(const ShellOptions&) const = default;
 };

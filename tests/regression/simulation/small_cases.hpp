@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small valid cases, which tests run or spoil in one place.
+#pragma once
+
+#include <string>
+
+#include "support/program.hpp"
+
+namespace luff::testing {
+
+/// A flag in a stream on a coarse grid, five steps; the tests of bad input count its lines.
+inline const std::string small_flag = R"toml(title = "Small flag"
+[time]
+end = 0.1
+step = 0.02
+[fluid]
+density = 1.0
+viscosity = 0.01
+initial.velocity = [1.0, 0.0, 0.0]
+[grid]
+x = { from = -1.0, to = 2.0, cells = 24 }
+y = { from = -1.0, to = 1.0, cells = 16 }
+z = { from = -0.5, to = 0.5, cells = 8 }
+[boundary]
+x_min = { type = "velocity", value = [1.0, 0.0, 0.0] }
+x_max = { type = "outflow" }
+y_min = { type = "slip" }
+y_max = { type = "slip" }
+z_min = { type = "slip" }
+z_max = { type = "slip" }
+[[shell]]
+name = "flag"
+mesh = { shape = "rectangle", origin = [0, 0.01, -0.3], a = [0.8, 0, 0], b = [0, 0, 0.6], divisions = [6, 4] }
+rotate = { axis = [0, 0, 1], angle = 10.0, about = [0, 0.01, 0] }
+thickness = 0.01
+density = 100.0
+material = { model = "saint-venant-kirchhoff", young = 5000.0, poisson = 0.3 }
+[[shell.support]]
+where = { edge = [[0, 0.01, -0.3], [0, 0.01, 0.3]] }
+type = "hinged"
+[output]
+fields = { every = 0.05 }
+shells = { every = 0.05 }
+[[output.probe]]
+name = "tip"
+shell = "flag"
+point = [0.8, 0.15, 0.0]
+[[output.probe]]
+name = "wake"
+point = [1.5, 0.0, 0.0]
+)toml";
+
+/// The edge of a strip pulled down, without a fluid.
+inline const std::string small_strip = R"toml(title = "Small strip"
+[time]
+end = 0.5
+step = 0.05
+[[shell]]
+name = "strip"
+mesh = { shape = "rectangle", origin = [0, 0, 0], a = [1, 0, 0], b = [0, 0.25, 0], divisions = [4, 1] }
+thickness = 0.05
+density = 1.0
+material = { model = "saint-venant-kirchhoff", young = 1000.0, poisson = 0.0 }
+[[shell.support]]
+where = { edge = [[0, 0, 0], [0, 0.25, 0]] }
+type = "clamped"
+[[shell.load]]
+where = { edge = [[1, 0, 0], [1, 0.25, 0]] }
+force = [0.0, 0.0, "0.001*t"]
+[output]
+shells = { every = 0.25 }
+[[output.probe]]
+name = "end"
+shell = "strip"
+point = [1, 0, 0]
+)toml";
+
+/// The text with its only occurrence of `from` replaced.
+inline std::string changed(std::string text, const std::string& from, const std::string& to)
+{
+  const auto position = text.find(from);
+  EXPECT_NE(position, std::string::npos) << "nothing to change: " << from;
+  EXPECT_EQ(text.find(from, position + 1), std::string::npos) << "more than one place to change: " << from;
+  return text.replace(position, from.size(), to);
+}
+
+}  // namespace luff::testing
