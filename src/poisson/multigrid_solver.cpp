@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace luff::poisson {
@@ -158,41 +159,82 @@ std::size_t MultigridSolver::component_of(const Index3& cell) const
                         ((c[1] - box.lo[1]) + static_cast<std::size_t>(box.extent(1)) * (c[2] - box.lo[2]))];
 }
 
-void MultigridSolver::load_right_hand_side(double scale)
+/// f = scale (values - shift) on one row.
+void MultigridSolver::load_row(int j, int k, const double* values, double shift, double scale)
 {
   Level& level = multigrid_.finest();
-  const View<const double> net = std::as_const(net_).view();
-  for_each_row(grid_.owned(), [&](int, int, int j, int k) {
-    const Index3 c = internal({0, j, k});
-    for (int q = 0; q < 2; ++q) {
-      const int colour = (q + j + k) & 1;
-      float* __restrict f = level.f.data() + level.layout().start(c[1], c[2], colour);
-      const double* __restrict row = net.row(j, k);
-      const int m = level.layout().count(q);
+  const Index3 c = internal({0, j, k});
+  for (int q = 0; q < 2; ++q) {
+    float* __restrict f = level.f.data() + level.layout().start(c[1], c[2], (q + j + k) & 1);
+    const double* __restrict row = values;
+    const int m = level.layout().count(q);
 #pragma omp simd
-      for (int n = 0; n < m; ++n)
-        f[n] = static_cast<float>(scale * row[2 * n + q]);
-    }
-  });
+    for (int n = 0; n < m; ++n)
+      f[n] = static_cast<float>(scale * (row[2 * n + q] - shift));
+  }
 }
 
-void MultigridSolver::unload_solution()
+void MultigridSolver::unload_row(int j, int k)
 {
   const Layout& layout = multigrid_.finest().layout();
-  const Values& e = inner_.solution();
-  const View<float> natural = correction_.view();
-  const IndexBox& owned = grid_.owned();
-  for_each_row(owned.grown(1), [&](int, int, int j, int k) {
-    const Index3 c = internal({0, j, k});
-    for (int q = 0; q < 2; ++q) {
-      const float* __restrict from = e.data() + layout.start(c[1], c[2], (q + j + k) & 1);
-      float* __restrict to = natural.row(j, k);
-      const int m = layout.count(q);
+  const Index3 c = internal({0, j, k});
+  const float* __restrict even = inner_.solution().data() + layout.start(c[1], c[2], (j + k) & 1);
+  const float* __restrict odd = inner_.solution().data() + layout.start(c[1], c[2], (j + k + 1) & 1);
+  float* __restrict to = correction_.view().row(j, k);
+  const int n = grid_.cells()[0];
 #pragma omp simd
-      for (int n = 0; n < m; ++n)
-        to[2 * n + q] = from[n];
-    }
-  });
+  for (int t = 0; t < n / 2; ++t) {
+    to[2 * t] = even[t];
+    to[2 * t + 1] = odd[t];
+  }
+  if (n % 2 == 1)
+    to[n - 1] = even[n / 2];
+}
+
+/// The correction on plane t along the outer axis, halo rows included, and its part in the pressure.
+void MultigridSolver::unload_plane(int t, const View<double>& p, double to_pressure)
+{
+  const IndexBox& owned = grid_.owned();
+  const int outer = fluxes_.outer_axis();
+  const int inner = 3 - outer;
+  const auto unload = [&](int b, int plane) { outer == 2 ? unload_row(b, plane) : unload_row(plane, b); };
+  for (int b = owned.lo[inner] - 1; b <= owned.hi[inner]; ++b) {
+    unload(b, t);
+    if (t == owned.lo[outer])
+      unload(b, t - 1);
+    if (t == owned.hi[outer] - 1)
+      unload(b, t + 1);
+  }
+  for (int b = owned.lo[inner]; b < owned.hi[inner]; ++b) {
+    const int j = outer == 2 ? b : t;
+    const int k = outer == 2 ? t : b;
+    const float* __restrict e = correction_.view().row(j, k);
+    double* __restrict pressure = p.row(j, k);
+    const int n = grid_.cells()[0];
+#pragma omp simd
+    for (int i = 0; i < n; ++i)
+      pressure[i] += to_pressure * static_cast<double>(e[i]);
+  }
+}
+
+/// Loads the right-hand side of the next round, minus its means over floating components, scaled to norm one; returns
+/// its norm before that.  The usual single component needs no labels and one pass.
+double MultigridSolver::load_right_hand_side(const Outflow& outflow)
+{
+  const View<double> net = net_.view();
+  const auto cells = static_cast<double>(grid_.cells()[0]) * grid_.cells()[1] * grid_.cells()[2];
+  const bool one = component_.empty();
+  const double mean = one && floating_[0] != 0 ? -outflow.sum / cells : 0.0;
+  const double removed = cells * mean * mean;
+  double norm = std::sqrt(std::max(0.0, outflow.norm * outflow.norm - removed));
+  double shift = mean;
+  if (!one || removed > 1e-6 * outflow.norm * outflow.norm) {
+    norm = remove_means(net, /*by_volume=*/false);
+    shift = 0.0;
+  }
+  scale_ = norm > 0.0 ? 1.0 / norm : 0.0;
+  for_each_row(grid_.owned(), [&](int, int, int j, int k) { load_row(j, k, net.row(j, k), shift, scale_); });
+  return norm;
 }
 
 /// No more digits than are missing, nor than single precision gives.
@@ -208,40 +250,41 @@ double MultigridSolver::inner_tolerance(const Outflow& outflow, double initial_n
 
 Report MultigridSolver::project(const View3<double>& U, const View<double>& p, double dt, const Target& target)
 {
-  const View<double> net = net_.view();
-  const double initial_norm = target.relative > 0.0 ? fluxes_.measure(U, net).norm : 0.0;
+  const auto ignore = [](int, int, const double*) {};
+  const auto to_net = [&](int j, int k, const double* outflow) {
+    std::transform(outflow, outflow + grid_.cells()[0], net_.view().row(j, k), std::negate<>());
+  };
+  const double initial_norm = target.relative > 0.0 ? fluxes_.measure(U, ignore).norm : 0.0;
   halo_.exchange({p});
-  fluxes_.correct<double>(U, p, dt);
-  Outflow outflow = fluxes_.measure(U, net);
+  Outflow outflow = fluxes_.correct<double>(
+      U, p, dt, [](int) {}, to_net);
+  double norm = std::isfinite(outflow.norm) ? load_right_hand_side(outflow) : outflow.norm;
   Report report;
-  double norm = std::isfinite(outflow.norm) ? remove_means(net, /*by_volume=*/false) : outflow.norm;
   while (!meets(outflow, initial_norm, target) && report.iterations < target.max_iterations && std::isfinite(norm)) {
-    // Below round-off of the fluxes conjugate gradients would only stir noise.  But on stretched grids the round-off of
-    // the large cells can dominate the norm while a small one beside a sheet still holds something to correct, so a few
-    // digits are always worth trying.
+    // Below round-off of the fluxes nothing can be gained, and conjugate gradients would only stir noise.
     const double round_off = 2.0 * std::numeric_limits<double>::epsilon() * outflow.flux_norm;
-    load_right_hand_side(1.0 / norm);
-    const double tolerance = std::max(std::min(0.1, round_off / norm), inner_tolerance(outflow, initial_norm, target));
+    if (round_off >= 0.5 * norm)
+      break;
+    const double tolerance = std::max(round_off / norm, inner_tolerance(outflow, initial_norm, target));
     const auto inner = inner_.solve(tolerance, target.max_iterations - report.iterations);
     report.iterations += inner.iterations;
     if (!inner.finite)
       break;
-    unload_solution();
-    const View<const float> e = std::as_const(correction_).view();
-    const double factor = norm / unit_;
-    fluxes_.correct<float>(U, e, factor);
-    const Outflow corrected = fluxes_.measure(U, net);
-    const double corrected_norm = remove_means(net, /*by_volume=*/false);
+    const double factor = 1.0 / (scale_ * unit_);
+    const auto add = [&](double sign, const FluxCorrection::RowSink& sink) {
+      return fluxes_.correct<float>(
+          U, std::as_const(correction_).view(), sign * factor, [&](int t) { unload_plane(t, p, sign * factor / dt); },
+          sink);
+    };
+    const Outflow corrected = add(1.0, to_net);
+    const double corrected_norm = load_right_hand_side(corrected);
     ++report.refinements;
-    if (!(corrected_norm < 0.9 * norm || corrected.divergence < 0.9 * outflow.divergence)) {
-      fluxes_.correct<float>(U, e, -factor);
-      outflow = fluxes_.measure(U, net);
+    if (!(corrected_norm < 0.9 * norm)) {
+      outflow = add(-1.0, ignore);
       break;
     }
     outflow = corrected;
     norm = corrected_norm;
-    const double to_pressure = factor / dt;
-    for_each_cell(grid_.owned(), [=](int i, int j, int k) { p(i, j, k) += to_pressure * e(i, j, k); });
   }
   remove_means(p, /*by_volume=*/true);
   halo_.exchange({p});

@@ -29,8 +29,10 @@ class MultigridSolver final : public PressureSolver {
   [[nodiscard]] std::size_t component_of(const Index3& cell) const;
   [[nodiscard]] std::vector<double> means(const View<const double>& values, bool by_volume) const;
   double remove_means(const View<double>& values, bool by_volume) const;
-  void load_right_hand_side(double scale);
-  void unload_solution();
+  void load_row(int j, int k, const double* values, double shift, double scale);
+  double load_right_hand_side(const Outflow& outflow);
+  void unload_row(int j, int k);
+  void unload_plane(int t, const View<double>& p, double to_pressure);
   [[nodiscard]] double inner_tolerance(const Outflow& outflow, double initial_norm, const Target& target) const;
 
   const grid::Grid& grid_;
@@ -41,8 +43,9 @@ class MultigridSolver final : public PressureSolver {
   ConjugateGradients inner_;
   FluxCorrection fluxes_;
   HaloExchange halo_;
-  Field<double> net_;
+  Field<double> net_;  // minus the net outflow
   Field<float> correction_;
+  double scale_ = 1.0;              // of the right-hand side that the inner solver sees
   std::vector<FaceIndex> blocked_;  // of this rank
   std::vector<int> component_;      // see Multigrid::label_components
   std::vector<char> floating_;      // per component

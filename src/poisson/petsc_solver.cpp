@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -283,23 +284,23 @@ int PetscSolver::solve(double scale, int max_iterations)
 
 Report PetscSolver::project(const View3<double>& U, const View<double>& p, double dt, const Target& target)
 {
-  const View<double> net = net_.view();
-  const double initial_norm = target.relative > 0.0 ? fluxes_.measure(U, net).norm : 0.0;
+  const auto nothing = [](int) {};
+  const auto to_net = [&](int j, int k, const double* outflow) {
+    std::transform(outflow, outflow + grid_.cells()[0], net_.view().row(j, k), std::negate<>());
+  };
+  const double initial_norm = target.relative > 0.0 ? fluxes_.measure(U, to_net).norm : 0.0;
   halo_.exchange({p});
-  fluxes_.correct<double>(U, p, dt);
-  Outflow outflow = fluxes_.measure(U, net);
+  Outflow outflow = fluxes_.correct<double>(U, p, dt, nothing, to_net);
   Report report;
   while (!meets(outflow, initial_norm, target) && report.iterations < target.max_iterations &&
          std::isfinite(outflow.norm)) {
     const double scale = 1.0 / outflow.norm;
     report.iterations += solve(scale, target.max_iterations - report.iterations);
     const View<const double> e = std::as_const(correction_).view();
-    fluxes_.correct<double>(U, e, 1.0 / scale);
-    const Outflow corrected = fluxes_.measure(U, net);
+    const Outflow corrected = fluxes_.correct<double>(U, e, 1.0 / scale, nothing, to_net);
     ++report.refinements;
     if (!(corrected.norm < 0.9 * outflow.norm)) {
-      fluxes_.correct<double>(U, e, -1.0 / scale);
-      outflow = fluxes_.measure(U, net);
+      outflow = fluxes_.correct<double>(U, e, -1.0 / scale, nothing, to_net);
       break;
     }
     outflow = corrected;
