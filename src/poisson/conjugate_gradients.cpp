@@ -2,12 +2,17 @@
 #include "poisson/conjugate_gradients.hpp"
 
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "poisson/stages.hpp"
 
 namespace luff::poisson {
 
 namespace {
+
+/// A round must gain this much whatever round-off is estimated to be.
+constexpr double largest_floor = 1e-3;
 
 /// row(start, count) for the rows of both colours of plane k.
 template <class Row>
@@ -23,6 +28,7 @@ void for_rows(const Layout& layout, int k, Row row)
 ConjugateGradients::ConjugateGradients(Multigrid& multigrid, MPI_Comm comm)
     : multigrid_(multigrid),
       comm_(comm),
+      diagonal_(multigrid.finest().box().typical_diagonal()),
       e_(multigrid.finest().layout().size),
       p_(multigrid.finest().layout().size),
       q_(multigrid.finest().layout().size)
@@ -36,22 +42,40 @@ double ConjugateGradients::sum_planes(Plane plane) const
   const IndexBox& owned = multigrid_.finest().layout().owned;
   std::vector<double> partial(owned.extent(2));
   run_stages(owned.lo[2], owned.hi[2], 1, threads_for(owned), [&](int, int k) { partial[k - owned.lo[2]] = plane(k); });
-  double sum = 0.0;
-  for (const double s : partial)
-    sum += s;
-  return total(sum);
+  double sum = std::accumulate(partial.begin(), partial.end(), 0.0);
+  sum_over_ranks({&sum, 1});
+  return sum;
 }
 
-double ConjugateGradients::total(double value) const
+void ConjugateGradients::sum_over_ranks(std::span<double> sums) const
 {
-  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, comm_);
-  return value;
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, comm_);
 }
 
-double ConjugateGradients::residual_dot_direction()
+double ConjugateGradients::norm_of_residual() const
 {
   const Level& level = multigrid_.finest();
-  return sum_planes([&](int k) {
+  return std::sqrt(sum_planes([&](int k) {
+    double sum = 0.0;
+    for_rows(level.layout(), k, [&](std::ptrdiff_t start, int m) {
+      const float* __restrict r = level.f.data() + start;
+      float part = 0.0f;
+#pragma omp simd reduction(+ : part)
+      for (int n = 0; n < m; ++n)
+        part += r[n] * r[n];
+      sum += part;
+    });
+    return sum;
+  }));
+}
+
+/// z <- M r by a multigrid cycle; returns r.z, summed while z is in cache.
+double ConjugateGradients::precondition()
+{
+  const Level& level = multigrid_.finest();
+  const IndexBox& owned = level.layout().owned;
+  std::vector<double> partial(owned.extent(2));
+  multigrid_.cycle([&](int k) {
     double sum = 0.0;
     for_rows(level.layout(), k, [&](std::ptrdiff_t start, int m) {
       const float* __restrict r = level.f.data() + start;
@@ -62,8 +86,11 @@ double ConjugateGradients::residual_dot_direction()
         part += r[n] * z[n];
       sum += part;
     });
-    return sum;
+    partial[k - owned.lo[2]] = sum;
   });
+  double sum = std::accumulate(partial.begin(), partial.end(), 0.0);
+  sum_over_ranks({&sum, 1});
+  return sum;
 }
 
 /// p <- z + beta p, q <- A p; returns p.q.
@@ -91,60 +118,60 @@ double ConjugateGradients::advance_direction(float beta)
     level.exchange().exchange(p_.data(), Colours::Both);
     run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { image(k); });
   }
-  double sum = 0.0;
-  for (const double s : partial)
-    sum += s;
-  return total(sum);
+  double sum = std::accumulate(partial.begin(), partial.end(), 0.0);
+  sum_over_ranks({&sum, 1});
+  return sum;
 }
 
-/// e <- e + alpha p, r <- r - alpha q; returns r.r.
-double ConjugateGradients::step(float alpha, bool first)
+/// e <- e + alpha p, r <- r - alpha q.
+ConjugateGradients::Norms ConjugateGradients::step(float alpha, bool first)
 {
   Level& level = multigrid_.finest();
-  return sum_planes([&](int k) {
-    double sum = 0.0;
+  const IndexBox& owned = level.layout().owned;
+  std::vector<std::array<double, 2>> partial(owned.extent(2));
+  run_stages(owned.lo[2], owned.hi[2], 1, threads_for(owned), [&](int, int k) {
+    std::array<double, 2>& sums = partial[k - owned.lo[2]];
+    sums = {0.0, 0.0};
     for_rows(level.layout(), k, [&](std::ptrdiff_t start, int m) {
       const float* __restrict p = p_.data() + start;
       const float* __restrict q = q_.data() + start;
       float* __restrict e = e_.data() + start;
       float* __restrict r = level.f.data() + start;
       const float keep = first ? 0.0f : 1.0f;
-      float part = 0.0f;
-#pragma omp simd reduction(+ : part)
+      float rr = 0.0f;
+      float ee = 0.0f;
+#pragma omp simd reduction(+ : rr, ee)
       for (int n = 0; n < m; ++n) {
         e[n] = keep * e[n] + alpha * p[n];
         r[n] -= alpha * q[n];
-        part += r[n] * r[n];
+        rr += r[n] * r[n];
+        ee += e[n] * e[n];
       }
-      sum += part;
+      sums[0] += rr;
+      sums[1] += ee;
     });
-    return sum;
   });
+  std::array<double, 2> sums{0.0, 0.0};
+  for (const auto& [rr, ee] : partial) {
+    sums[0] += rr;
+    sums[1] += ee;
+  }
+  sum_over_ranks(sums);
+  return {std::sqrt(sums[0]), std::sqrt(sums[1])};
 }
 
 ConjugateGradients::Result ConjugateGradients::solve(double tolerance, int max_iterations)
 {
   Level& level = multigrid_.finest();
-  const double initial = sum_planes([&](int k) {
-    double sum = 0.0;
-    for_rows(level.layout(), k, [&](std::ptrdiff_t start, int m) {
-      const float* __restrict r = level.f.data() + start;
-      float part = 0.0f;
-#pragma omp simd reduction(+ : part)
-      for (int n = 0; n < m; ++n)
-        part += r[n] * r[n];
-      sum += part;
-    });
-    return sum;
-  });
+  const double initial = norm_of_residual();
   Result result;
   double rz_before = 1.0;
+  double floor = 0.0;
   e_.resize(e_.size());
-  while (result.iterations < max_iterations && result.reduction > tolerance) {
-    multigrid_.cycle();
+  while (result.iterations < max_iterations && result.reduction > std::max(tolerance, floor)) {
+    const double rz = precondition();
     ++result.iterations;
     const bool first = result.iterations == 1;
-    const double rz = residual_dot_direction();
     if (first)
       p_.resize(p_.size());
     const double pq = advance_direction(first ? 0.0f : static_cast<float>(rz / rz_before));
@@ -154,7 +181,10 @@ ConjugateGradients::Result ConjugateGradients::solve(double tolerance, int max_i
       return result;
     }
     rz_before = rz;
-    result.reduction = std::sqrt(step(static_cast<float>(alpha), first) / initial);
+    const Norms norms = step(static_cast<float>(alpha), first);
+    result.reduction = norms.residual / initial;
+    constexpr double half_digit = 0.5 * std::numeric_limits<float>::epsilon();
+    floor = std::min(largest_floor, half_digit * diagonal_ * norms.solution / initial);
   }
   const IndexBox& owned = level.layout().owned;
   for (int k = owned.lo[2]; k < owned.hi[2]; ++k)

@@ -2,6 +2,7 @@
 // Conjugate gradients in single precision, preconditioned by the multigrid cycle.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "poisson/multigrid.hpp"
@@ -19,20 +20,25 @@ class ConjugateGradients {
   ConjugateGradients(Multigrid& multigrid, MPI_Comm comm);
 
   /// Solves A e = f, f being the right-hand side in finest().f, which is overwritten by the residual; stops when its
-  /// 2-norm fell by `tolerance`.  e gets its halo.  Collective.
+  /// 2-norm fell by `tolerance`, or to what the rounding of e makes of A e.  e gets its halo.  Collective.
   Result solve(double tolerance, int max_iterations);
   [[nodiscard]] const Values& solution() const { return e_; }
 
  private:
   template <class Plane>
   double sum_planes(Plane plane) const;
-  [[nodiscard]] double total(double value) const;
-  double residual_dot_direction();
+  void sum_over_ranks(std::span<double> sums) const;
+  [[nodiscard]] double norm_of_residual() const;
+  double precondition();
   double advance_direction(float beta);
-  double step(float alpha, bool first);
+  struct Norms {
+    double residual, solution;
+  };
+  Norms step(float alpha, bool first);
 
   Multigrid& multigrid_;
   MPI_Comm comm_;
+  double diagonal_;  // root mean square of A's
   Values e_, p_, q_;
 };
 

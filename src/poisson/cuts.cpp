@@ -2,6 +2,7 @@
 #include "poisson/cuts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace luff::poisson {
@@ -333,6 +334,29 @@ class Coarsening {
 };
 
 }  // namespace
+
+/// The diagonal is h_j h_k a_i + h_i h_k a_j + h_i h_j a_k, a = 1/d + 1/d beside a cell; cross terms of its square go
+/// by means along each axis.
+double Box::typical_diagonal() const
+{
+  std::array<double, 3> hh{}, aa{}, ha{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Line& line = lines[axis];
+    for (int i = 0; i < line.n; ++i) {
+      const double a = line.inverse_d[i] + line.inverse_d[i + 1];
+      hh[axis] += line.h[i] * line.h[i] / line.n;
+      aa[axis] += a * a / line.n;
+      ha[axis] += line.h[i] * a / line.n;
+    }
+  }
+  double square = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int b = (axis + 1) % 3;
+    const int c = (axis + 2) % 3;
+    square += aa[axis] * hh[b] * hh[c] + 2.0 * ha[axis] * ha[b] * hh[c];
+  }
+  return std::sqrt(square);
+}
 
 std::span<const Link> Cuts::links_from(Unknown x) const
 {

@@ -66,6 +66,8 @@ struct Box {
     const int e = (a + 2) % 3;
     return lines[a].inverse_d[c[a] + side % 2] * lines[b].h[c[b]] * lines[e].h[c[e]];
   }
+  /// Root mean square of the diagonal of the clean operator, within the spread of widths.
+  [[nodiscard]] double typical_diagonal() const;
   [[nodiscard]] double measure(const Index3& c) const
   {
     return lines[0].measure[c[0]] * lines[1].measure[c[1]] * lines[2].measure[c[2]];

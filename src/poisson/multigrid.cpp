@@ -188,7 +188,7 @@ void Multigrid::smooth_from_zero(Level& level)
   level.residual_extras();
 }
 
-void Multigrid::smooth(Level& level, Transfer& correction)
+void Multigrid::smooth(Level& level, Transfer& correction, const PlaneWork& after)
 {
   RowExchange& halo = level.exchange();
   const IndexBox& owned = level.layout().owned;
@@ -198,11 +198,13 @@ void Multigrid::smooth(Level& level, Transfer& correction)
   const auto stage = [&](int s, int k) {
     if (s == 0)
       correction.prolong_plane(k);
-    else
+    else if (s < stages)
       level.relax_plane(k, s % 2);
+    else
+      after(k);
   };
   if (halo.within_planes() && level.extras() == 0) {
-    run_stages(owned.lo[2], owned.hi[2], stages, threads, stage);
+    run_stages(owned.lo[2], owned.hi[2], stages + 1, threads, stage);
     return;
   }
   for (int s = 0; s < stages; ++s) {
@@ -214,23 +216,31 @@ void Multigrid::smooth(Level& level, Transfer& correction)
     if (s > 0 && s % 2 == 0)
       level.relax_extras(Level::Order::Backward, /*from_zero=*/false);
   }
+  run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { after(k); });
 }
 
-void Multigrid::cycle(std::size_t l)
+void Multigrid::solve_coarsest(const PlaneWork& after)
 {
-  Level& level = *levels_[l];
+  Level& level = *levels_.back();
+  coarsest_.solve(level);
+  const IndexBox& owned = level.layout().owned;
+  for (int k = owned.lo[2]; k < owned.hi[2]; ++k) {
+    level.exchange().close_plane(level.u.data(), k, Colours::Both);
+    after(k);
+  }
+  level.exchange().exchange(level.u.data(), Colours::Both);
+}
+
+void Multigrid::cycle(std::size_t l, const PlaneWork& after)
+{
   if (l + 1 == levels_.size()) {
-    coarsest_.solve(level);
-    const IndexBox& owned = level.layout().owned;
-    for (int k = owned.lo[2]; k < owned.hi[2]; ++k)
-      level.exchange().close_plane(level.u.data(), k, Colours::Both);
-    level.exchange().exchange(level.u.data(), Colours::Both);
+    solve_coarsest(after);
     return;
   }
-  smooth_from_zero(level);
+  smooth_from_zero(*levels_[l]);
   transfers_[l]->restrict_residual();
-  cycle(l + 1);
-  smooth(level, *transfers_[l]);
+  cycle(l + 1, [](int) {});
+  smooth(*levels_[l], *transfers_[l], after);
 }
 
 }  // namespace luff::poisson

@@ -2,6 +2,7 @@
 // The multigrid V-cycle that preconditions conjugate gradients.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -30,14 +31,17 @@ class Multigrid {
   /// and whether each component is floating.  Numbered alike on every rank.
   void label_components(std::vector<int>& component, std::vector<char>& floating) const;
 
-  /// finest().u = M finest().f, M symmetric positive (semi-)definite.  Collective.
-  void cycle() { cycle(0); }
+  using PlaneWork = std::function<void(int k)>;
+  /// finest().u = M finest().f, M symmetric positive (semi-)definite; then `after` on every plane of the finest level
+  /// while it is in cache.  Collective.
+  void cycle(const PlaneWork& after = [](int) {}) { cycle(0, after); }
 
  private:
   void add_levels(const Neighbourhood& neighbourhood);
-  void cycle(std::size_t l);
+  void cycle(std::size_t l, const PlaneWork& after);
   void smooth_from_zero(Level& level);
-  void smooth(Level& level, Transfer& correction);
+  void smooth(Level& level, Transfer& correction, const PlaneWork& after);
+  void solve_coarsest(const PlaneWork& after);
 
   std::vector<std::unique_ptr<Level>> levels_;
   std::vector<std::unique_ptr<Transfer>> transfers_;

@@ -28,7 +28,8 @@ class MultigridSolver final : public PressureSolver {
   void label_components();
   [[nodiscard]] std::size_t component_of(const Index3& cell) const;
   [[nodiscard]] std::vector<double> means(const View<const double>& values, bool by_volume) const;
-  double remove_means(const View<double>& values, bool by_volume) const;
+  [[nodiscard]] std::vector<double> mean_of_all(const View<const double>& values, bool by_volume) const;
+  void remove_means(const View<double>& values, bool by_volume) const;
   void load_row(int j, int k, const double* values, double shift, double scale);
   double load_right_hand_side(const Outflow& outflow);
   void unload_row(int j, int k);
