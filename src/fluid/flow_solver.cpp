@@ -251,6 +251,8 @@ poisson::Report FlowSolver::project_stage(double dt, double reduction)
                                                      .divergence = options_.divergence,
                                                      .speed = speed_ > 0.0 ? speed_ : 1.0,
                                                      .max_iterations = options_.max_iterations});
+  if (!std::isfinite(report.divergence))
+    fail_as_no_number();
   if (!report.converged)
     fail_run(
         "step {}, t = {:.6g}: the pressure did not converge: max |div U| h/|U| = {:.2e} after {} iterations, worst "
@@ -261,6 +263,29 @@ poisson::Report FlowSolver::project_stage(double dt, double reduction)
         grid_.centre(2, report.worst_cell[2]));
   boundary_.fill_pressure(p_.view());
   return report;
+}
+
+/// Names the first cell with a flux that is no number.
+void FlowSolver::fail_as_no_number() const
+{
+  const Index3& n = grid_.cells();
+  const double none = double(n[0]) * n[1] * n[2];
+  double first = none;
+  for (int axis = 0; axis < 3; ++axis)
+    for_each_cell_in_order(grid_.owned(), [&, U = U_[axis].view()](int i, int j, int k) {
+      const double number = i + double(n[0]) * (j + double(n[1]) * k);
+      if (number < first && !(std::isfinite(U(i, j, k)) && std::isfinite(U(stepped({i, j, k}, axis, 1)))))
+        first = number;
+    });
+  first = std::min(-grid_.ranks().max(-first), none - 1.0);
+  const auto number = static_cast<long>(first);
+  const Index3 c{static_cast<int>(number % n[0]), static_cast<int>(number / n[0] % n[1]),
+                 static_cast<int>(number / n[0] / n[1])};
+  fail_run(
+      "step {}, t = {:.6g}: the flow is no number any more, first in cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}): it "
+      "diverged, or a formula of the case (boundary, body force) gave no number; a smaller time.step, or time.cfl, may "
+      "help",
+      step_.index, step_.t_new, c[0], c[1], c[2], grid_.centre(0, c[0]), grid_.centre(1, c[1]), grid_.centre(2, c[2]));
 }
 
 void FlowSolver::recover(const StageTime& time)

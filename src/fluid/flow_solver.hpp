@@ -101,9 +101,10 @@ class FlowSolver {
   void compute_fluxes(const immersed::StageTime& time);
   void predict_with_old_pressure(const immersed::StageTime& time);
   poisson::Report project_stage(double dt, double reduction);
+  [[noreturn]] void fail_as_no_number() const;
   void recover(const immersed::StageTime& time);
   void repair_pressure();
-  void update_load_pressure();
+  void update_load_fields();
   [[nodiscard]] double largest_speed() const;
   [[nodiscard]] double largest_flux_velocity() const;
   [[nodiscard]] immersed::LoadFields load_fields() const;
