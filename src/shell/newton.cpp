@@ -28,6 +28,21 @@ namespace {
       when, shell.name(), report.iterations, report.increment, v, X.x(), X.y(), X.z(), now.x(), now.y(), now.z());
 }
 
+void check_finite(const Shell& shell, const Eigen::VectorXd& r, const Eigen::VectorXd& x, const std::string& when)
+{
+  if (r.allFinite())
+    return;
+  Eigen::Index first = 0;
+  while (std::isfinite(r[first]))
+    ++first;
+  const int v = static_cast<int>(first / 3);
+  const Vec3 now = x.segment<3>(3 * v);
+  fail_run(
+      "{}: shell '{}': the force on vertex {} at ({:.6g}, {:.6g}, {:.6g}) is no number: a load's formula gives none "
+      "there, or the run diverged; mend the formula or take smaller steps",
+      when, shell.name(), v, now.x(), now.y(), now.z());
+}
+
 void renew(const Equilibrium& equilibrium, const Eigen::VectorXd& x, KeptTangent& tangent)
 {
   tangent.K.set_zero();
@@ -60,6 +75,7 @@ NewtonReport newton(const Shell& shell, const Equilibrium& equilibrium, const Ne
   while (true) {
     Eigen::VectorXd r = equilibrium.residual(x);
     shell.clear_held(r);
+    check_finite(shell, r, x, when);
     report.residual = r.norm();
     report.residuals.push_back(report.residual);
     const bool renewed = !tangent.valid;

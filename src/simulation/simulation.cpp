@@ -18,8 +18,8 @@ void Simulation::run(const Observer& observe)
       continue;
     }
     const int halvings = clock_.rejections();
+    structure_->accept(step, d);  // may find the shell folded
     surroundings_->accept();
-    structure_->accept(step, d);
     clock_.accept(step);
     wanted = observe({step, rates, report, surroundings_->report(), halvings});
   }
@@ -39,7 +39,9 @@ coupling::FixedPointReport Simulation::advance(const TimeStep& step, Eigen::Vect
   const coupling::InterfaceMap flow_then_structure = [&](const Eigen::VectorXd& guess) {
     const immersed::SheetLoads loads = surroundings_->loads(structure_->velocity(guess, step));  // F
     const auto timer = profile_.time(Phase::Shell);
-    return structure_->solve(step, loads, guess);  // S
+    Eigen::VectorXd image = structure_->solve(step, loads, guess);  // S
+    residual_ = image - guess;
+    return image;
   };
   return coupling::solve_fixed_point(flow_then_structure, d, *acceleration_, policy_.criterion,
                                      coupling::displacement_norm(structure_->length()));
@@ -50,9 +52,10 @@ void Simulation::reject(const TimeStep& step, const coupling::FixedPointReport& 
   if (clock_.rejections() >= policy_.halvings || report.outcome == coupling::FixedPointOutcome::NotFinite)
     fail_run(
         "step {}, t = {:.6g}: the coupling of flow and shell did not converge: residual {:.2e} after {} iterations "
-        "(tolerance {:.1e}), the step halved {} times; a smaller time.step, coupling.acceleration = \"aitken\" with a "
-        "smaller coupling.relaxation, or more coupling.max_iterations may help",
-        step.index, step.t_new, report.residual, report.iterations, policy_.criterion.tolerance, clock_.rejections());
+        "(tolerance {:.1e}), largest at {}, the step halved {} times; a smaller time.step, coupling.acceleration = "
+        "\"aitken\" with a smaller coupling.relaxation, or more coupling.max_iterations may help",
+        step.index, step.t_new, report.residual, report.iterations, policy_.criterion.tolerance,
+        structure_->place_of(residual_), clock_.rejections());
   clock_.reject();
 }
 

@@ -66,6 +66,7 @@ class Simulation {
   std::unique_ptr<Structure> structure_;
   std::unique_ptr<coupling::Acceleration> acceleration_;
   CouplingPolicy policy_;
+  Eigen::VectorXd residual_;  ///< S(F(d)) - d of the last coupling iteration
   Profile profile_;
 };
 

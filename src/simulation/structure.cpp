@@ -2,6 +2,9 @@
 #include "simulation/structure.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
 
 namespace luff::simulation {
 
@@ -147,6 +150,20 @@ std::vector<Vec3> Structure::accepted_velocities(double t, double dt) const
     for (const Vec3& x_0 : sheet.mesh.vertices)
       velocities.push_back(sheet.moves ? rates(sheet, x_0, t, dt).velocity : Vec3(Vec3::Zero()));
   return velocities;
+}
+
+std::string Structure::place_of(const Eigen::VectorXd& d) const
+{
+  Eigen::Index worst = 0;
+  for (Eigen::Index n = 1; n < d.size() && std::isfinite(d[worst]); ++n)
+    if (!(std::abs(d[n]) <= std::abs(d[worst])))
+      worst = n;
+  const int vertex = static_cast<int>(worst / 3);
+  const auto sheet = std::find_if(sheets_.begin(), sheets_.end(),
+                                  [vertex](const SheetRange& s) { return vertex < s.first_vertex + s.vertices; });
+  const Vec3 x = shells_[sheet->part].dynamics->accepted().x.segment<3>(3 * (vertex - sheet->first_vertex));
+  return fmt::format("vertex {} of shell '{}' at ({:.4g}, {:.4g}, {:.4g})", vertex - sheet->first_vertex, sheet->name,
+                     x[0], x[1], x[2]);
 }
 
 shell::EnergyLedger Structure::energy() const

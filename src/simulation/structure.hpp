@@ -75,6 +75,8 @@ class Structure {
   [[nodiscard]] std::vector<Vec3> accepted_velocities(double t, double dt) const;
   /// Length that makes displacements relative: the largest shell's size, 1 without shells.
   [[nodiscard]] double length() const { return length_; }
+  /// The vertex with the largest component of an interface vector, or the first that is no number, in words.
+  [[nodiscard]] std::string place_of(const Eigen::VectorXd& d) const;
   /// Sum over the shells.
   [[nodiscard]] shell::EnergyLedger energy() const;
   [[nodiscard]] long sharp_folds() const { return sharp_folds_; }
