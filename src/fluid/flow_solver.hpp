@@ -104,7 +104,7 @@ class FlowSolver {
   [[noreturn]] void fail_as_no_number() const;
   void recover(const immersed::StageTime& time);
   void repair_pressure();
-  void update_load_fields();
+  void update_load_pressure();
   [[nodiscard]] double largest_speed() const;
   [[nodiscard]] double largest_flux_velocity() const;
   [[nodiscard]] immersed::LoadFields load_fields() const;
