@@ -12,7 +12,6 @@ namespace {
 struct CleanRow {
   const float* __restrict left_face;
   const float* __restrict right_face;
-  const float* __restrict ends;
   const float* __restrict width;
   const float* __restrict left;
   const float* __restrict right;
@@ -35,7 +34,6 @@ struct CleanRow {
            width[n] * (cj_low * (own - j_low[n]) + cj_high * (own - j_high[n]) + ck_low * (own - k_low[n]) +
                        ck_high * (own - k_high[n]));
   }
-  [[nodiscard]] float diagonal(int n) const { return row * ends[n] + width[n] * (cj_low + cj_high + ck_low + ck_high); }
 };
 
 }  // namespace
@@ -62,9 +60,14 @@ void Level::make_tables()
     ends_[i & 1].push_back(static_cast<float>(x.inverse_d[i]) + static_cast<float>(x.inverse_d[i + 1]));
     width_[i & 1].push_back(static_cast<float>(x.h[i]));
   }
+  for (int a = 0; a < 2; ++a) {
+    const Line& line = box_.lines[a + 1];
+    widths_[a].assign(line.h.begin(), line.h.end());
+    inverse_distances_[a].assign(line.inverse_d.begin(), line.inverse_d.end());
+  }
 }
 
-Level::Stencil Level::stencil(int j, int k, int colour) const
+inline Level::Stencil Level::stencil(int j, int k, int colour) const
 {
   Stencil s;
   s.parity = Layout::parity(j, k, colour);
@@ -72,46 +75,94 @@ Level::Stencil Level::stencil(int j, int k, int colour) const
   s.own = layout_.start(j, k, colour);
   s.right = layout_.start(j, k, 1 - colour) + s.parity;
   s.left = s.right - 1;
-  s.j_low = layout_.start(j - 1, k, 1 - colour);
-  s.j_high = layout_.start(j + 1, k, 1 - colour);
-  s.k_low = layout_.start(j, k - 1, 1 - colour);
-  s.k_high = layout_.start(j, k + 1, 1 - colour);
+  const std::ptrdiff_t other = s.own + (colour == 0 ? layout_.half : -layout_.half);
+  s.j_low = other - layout_.row;
+  s.j_high = other + layout_.row;
+  s.k_low = other - layout_.plane;
+  s.k_high = other + layout_.plane;
   return s;
 }
 
-Level::Faces Level::faces(int j, int k) const
+inline Level::Faces Level::faces(int j, int k) const
 {
-  const Line& y = box_.lines[1];
-  const Line& z = box_.lines[2];
-  return {static_cast<float>(y.h[j] * z.h[k]), static_cast<float>(z.h[k] * y.inverse_d[j]),
-          static_cast<float>(z.h[k] * y.inverse_d[j + 1]), static_cast<float>(y.h[j] * z.inverse_d[k]),
-          static_cast<float>(y.h[j] * z.inverse_d[k + 1])};
+  const float hj = widths_[0][j];
+  const float hk = widths_[1][k];
+  return {hj * hk, hk * inverse_distances_[0][j], hk * inverse_distances_[0][j + 1], hj * inverse_distances_[1][k],
+          hj * inverse_distances_[1][k + 1]};
 }
 
 namespace {
 
-template <class Stencil, class Faces>
-CleanRow clean_row(const float* values, const Stencil& s, const Faces& c, const std::vector<float>& left,
-                   const std::vector<float>& right, const std::vector<float>& ends, const std::vector<float>& width)
+template <class Stencil, class Faces, class Tables>
+inline CleanRow clean_row(const float* values, const Stencil& s, const Faces& c, const Tables& left,
+                          const Tables& right, const Tables& width)
 {
-  return {left.data(),      right.data(),      ends.data(),      width.data(),      values + s.left, values + s.right,
-          values + s.j_low, values + s.j_high, values + s.k_low, values + s.k_high, c.row,           c.j_low,
-          c.j_high,         c.k_low,           c.k_high};
+  return {left[s.parity].data(),
+          right[s.parity].data(),
+          width[s.parity].data(),
+          values + s.left,
+          values + s.right,
+          values + s.j_low,
+          values + s.j_high,
+          values + s.k_low,
+          values + s.k_high,
+          c.row,
+          c.j_low,
+          c.j_high,
+          c.k_low,
+          c.k_high};
 }
+
+/// 1 / diagonal along rows, kept from row to row while the widths across them stay the same.
+class InverseDiagonal {
+ public:
+  using Tables = std::array<std::vector<float>, 2>;
+  InverseDiagonal(const Tables& ends, const Tables& width) : ends_(ends), width_(width)
+  {
+    for (int q = 0; q < 2; ++q)
+      values_[q].resize(ends[q].size());
+  }
+
+  template <class Faces>
+  const float* of(int parity, const Faces& c)
+  {
+    const float across = c.j_low + c.j_high + c.k_low + c.k_high;
+    if (c.row != row_[parity] || across != across_[parity]) {
+      row_[parity] = c.row;
+      across_[parity] = across;
+      float* __restrict out = values_[parity].data();
+      const float* __restrict ends = ends_[parity].data();
+      const float* __restrict width = width_[parity].data();
+      const int count = static_cast<int>(values_[parity].size());
+#pragma omp simd
+      for (int n = 0; n < count; ++n)
+        out[n] = 1.0f / (c.row * ends[n] + across * width[n]);
+    }
+    return values_[parity].data();
+  }
+
+ private:
+  const Tables& ends_;
+  const Tables& width_;
+  Tables values_;
+  std::array<float, 2> row_{-1.0f, -1.0f};
+  std::array<float, 2> across_{-1.0f, -1.0f};
+};
 
 }  // namespace
 
 void Level::start_plane(int k)
 {
+  InverseDiagonal diagonal(ends_, width_);
   for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
     const Stencil s = stencil(j, k, 0);
-    const CleanRow row =
-        clean_row(u.data(), s, faces(j, k), left_[s.parity], right_[s.parity], ends_[s.parity], width_[s.parity]);
+    const Faces c = faces(j, k);
+    const float* __restrict inverse = diagonal.of(s.parity, c);
     const float* __restrict rhs = f.data() + s.own;
     float* __restrict out = u.data() + s.own;
 #pragma omp simd
     for (int n = 0; n < s.count; ++n)
-      out[n] = rhs[n] / row.diagonal(n);
+      out[n] = rhs[n] * inverse[n];
   }
   for (const Row* row = rows_begin(k, 0); row != rows_end(k, 0); ++row) {
     float sum = f[row->place];
@@ -125,15 +176,17 @@ void Level::start_plane(int k)
 
 void Level::relax_plane(int k, int colour)
 {
+  InverseDiagonal diagonal(ends_, width_);
   for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
     const Stencil s = stencil(j, k, colour);
-    const CleanRow row =
-        clean_row(u.data(), s, faces(j, k), left_[s.parity], right_[s.parity], ends_[s.parity], width_[s.parity]);
+    const Faces c = faces(j, k);
+    const CleanRow row = clean_row(u.data(), s, c, left_, right_, width_);
+    const float* __restrict inverse = diagonal.of(s.parity, c);
     const float* __restrict rhs = f.data() + s.own;
     float* __restrict out = u.data() + s.own;
 #pragma omp simd
     for (int n = 0; n < s.count; ++n)
-      out[n] = (rhs[n] + row.neighbours(n)) / row.diagonal(n);
+      out[n] = (rhs[n] + row.neighbours(n)) * inverse[n];
   }
   for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row)
     u[row->place] = (f[row->place] + neighbour_sum(*row, u.data())) * row->inverse;
@@ -144,8 +197,8 @@ void Level::residual_plane(int k, int colour)
 {
   for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
     const Stencil s = stencil(j, k, colour);
-    const CleanRow row =
-        clean_row(u.data(), s, faces(j, k), left_[s.parity], right_[s.parity], ends_[s.parity], width_[s.parity]);
+    const Faces c = faces(j, k);
+    const CleanRow row = clean_row(u.data(), s, c, left_, right_, width_);
     const float* __restrict rhs = f.data() + s.own;
     const float* __restrict own = u.data() + s.own;
     float* __restrict out = r.data() + s.own;
@@ -164,8 +217,7 @@ double Level::apply_plane(int k, const float* p, float* q) const
   for (int colour = 0; colour < 2; ++colour) {
     for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
       const Stencil s = stencil(j, k, colour);
-      const CleanRow row =
-          clean_row(p, s, faces(j, k), left_[s.parity], right_[s.parity], ends_[s.parity], width_[s.parity]);
+      const CleanRow row = clean_row(p, s, faces(j, k), left_, right_, width_);
       const float* __restrict own = p + s.own;
       float* __restrict out = q + s.own;
       float part = 0.0f;

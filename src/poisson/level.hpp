@@ -91,7 +91,8 @@ class Level {
   const Neighbourhood* neighbourhood_;
   RowExchange exchange_;
   Colours residual_colours_;
-  std::array<std::vector<float>, 2> left_, right_, ends_, width_;  // per parity of i
+  std::array<std::vector<float>, 2> left_, right_, ends_, width_;  // along rows, per parity of i
+  std::array<std::vector<float>, 2> widths_, inverse_distances_;   // along j and k
   int extras_ = 0;
   std::vector<int> owned_extras_;
   std::vector<Row> rows_;

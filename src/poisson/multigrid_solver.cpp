@@ -285,7 +285,7 @@ Report MultigridSolver::project(const View3<double>& U, const View<double>& p, d
   Report report;
   while (!meets(outflow, initial_norm, target) && report.iterations < target.max_iterations && std::isfinite(norm)) {
     // Below round-off of the fluxes nothing can be gained, and conjugate gradients would only stir noise.
-    const double round_off = 2.0 * std::numeric_limits<double>::epsilon() * outflow.flux_norm;
+    const double round_off = 0.5 * std::numeric_limits<double>::epsilon() * outflow.flux_norm;
     if (round_off >= 0.5 * norm)
       break;
     const double tolerance = std::max(round_off / norm, inner_tolerance(outflow, initial_norm, target));
