@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run leaves, that it can be repeated and changed, and that threads and ranks do not change its numbers.
+#include <algorithm>
+
+#include "run_files.hpp"
+#include "small_cases.hpp"
+
+namespace luff::testing {
+namespace {
+
+using Columns = std::vector<std::string>;
+
+const Columns step_columns{"step",
+                           "t [time]",
+                           "dt [time]",
+                           "cfl",
+                           "pressure_iterations",
+                           "max_divergence",
+                           "coupling_iterations",
+                           "coupling_residual",
+                           "kinetic [energy]",
+                           "elastic [energy]",
+                           "damping_work [energy]",
+                           "external_work [energy]",
+                           "seconds_search [s]",
+                           "seconds_momentum [s]",
+                           "seconds_cut_cells [s]",
+                           "seconds_pressure [s]",
+                           "seconds_loads [s]",
+                           "seconds_shell [s]",
+                           "seconds_output [s]"};
+
+/// Runs a case given as text, which must succeed, into the folder `out`.
+void run_well(const WorkFolder& folder, const std::string& text, const std::string& out = "out",
+              const std::vector<std::string>& more = {}, const std::map<std::string, std::string>& environment = {})
+{
+  folder.write("case.toml", text);
+  std::vector<std::string> command{"run", "case.toml", "--out", out};
+  command.insert(command.end(), more.begin(), more.end());
+  const Outcome run = luff(folder, command, environment);
+  ASSERT_EQ(run.status, 0) << run.said;
+  ASSERT_EQ(read_summary(folder.path() / out)["state"], "finished");
+}
+
+/// Tables whose numbers do not depend on how fast the machine is.
+void expect_same_numbers(const WorkFolder& folder, const std::string& a, const std::string& b)
+{
+  for (const char* name : {"probe-tip.csv", "probe-wake.csv", "forces-flag.csv"})
+    EXPECT_EQ(folder.read(a + "/" + name), folder.read(b + "/" + name)) << name;
+}
+
+/// Largest difference of two tables over the largest value of the column's quantity (x, y and z together).
+double difference(const Table& a, const Table& b)
+{
+  EXPECT_EQ(a.head, b.head);
+  EXPECT_EQ(a.rows.size(), b.rows.size());
+  std::map<std::string, double> scale;
+  std::map<std::string, double> largest;
+  for (std::size_t c = 1; c < a.head.size(); ++c) {
+    const std::string quantity = a.head[c].substr(0, a.head[c].find_first_of(" _"));
+    const auto of_a = a.column(a.head[c]);
+    const auto of_b = b.column(b.head[c]);
+    for (std::size_t n = 0; n < of_a.size() && n < of_b.size(); ++n) {
+      scale[quantity] = std::max(scale[quantity], std::abs(of_a[n]));
+      largest[quantity] = std::max(largest[quantity], std::abs(of_a[n] - of_b[n]));
+    }
+  }
+  double worst = 0.0;
+  for (const auto& [quantity, value] : scale) {
+    EXPECT_GT(value, 0.0) << quantity;
+    worst = std::max(worst, largest[quantity] / value);
+  }
+  return worst;
+}
+
+TEST(ACoupledRun, LeavesEveryFileWithItsDocumentedColumns)
+{
+  const WorkFolder folder;
+  run_well(folder, small_flag);
+  const auto out = folder.path() / "out";
+  EXPECT_EQ(read_table(out / "steps.csv").head, step_columns);
+  EXPECT_EQ(read_table(out / "probe-tip.csv").head,
+            (Columns{"t [time]", "displacement_x [length]", "displacement_y [length]", "displacement_z [length]",
+                     "velocity_x [velocity]", "velocity_y [velocity]", "velocity_z [velocity]"}));
+  EXPECT_EQ(read_table(out / "probe-wake.csv").head,
+            (Columns{"t [time]", "velocity_x [velocity]", "velocity_y [velocity]", "velocity_z [velocity]",
+                     "pressure [pressure]"}));
+  EXPECT_EQ(read_table(out / "forces-flag.csv").head,
+            (Columns{"t [time]", "force_x [force]", "force_y [force]", "force_z [force]", "force_minus_x [force]",
+                     "force_minus_y [force]", "force_minus_z [force]", "force_plus_x [force]", "force_plus_y [force]",
+                     "force_plus_z [force]"}));
+  for (const char* name : {"steps.csv", "probe-tip.csv", "probe-wake.csv", "forces-flag.csv"})
+    EXPECT_EQ(read_table(out / name).rows.size(), 5U) << name;
+  EXPECT_NE(folder.read("out/log.txt").find("finished at t = 0.1 after 5 steps"), std::string::npos);
+  const nlohmann::json summary = read_summary(out);
+  EXPECT_EQ(summary["title"], "Small flag");
+  EXPECT_EQ(summary["steps"], 5);
+  EXPECT_EQ(summary["t"], 0.1);
+  EXPECT_EQ(summary["cells"], 24 * 16 * 8);
+  EXPECT_LT(summary["max_divergence"], 1e-13);
+}
+
+TEST(ACoupledRun, WritesFlowAndShellAtTheSameInstantsEachOnce)
+{
+  const WorkFolder folder;
+  run_well(folder, small_flag);
+  // Due at 0, 0.05 and 0.1; steps end at 0.06 and 0.1.
+  const std::vector<double> instants{0.0, 0.06, 0.1};
+  for (const char* name : {"out/fields.pvd", "out/shell-flag.pvd"}) {
+    const auto times = read_series(folder.path() / name);
+    ASSERT_EQ(times.size(), instants.size()) << name;
+    for (std::size_t n = 0; n < times.size(); ++n)
+      EXPECT_NEAR(times[n], instants[n], 1e-12) << name;
+  }
+  const std::string flow = folder.read("out/fields/fields_000002.vtr");
+  for (const char* field : {"velocity", "pressure", "vorticity", "q_criterion"})
+    EXPECT_NE(flow.find("Name=\"" + std::string(field) + "\""), std::string::npos) << field;
+  const std::string shell = folder.read("out/shell-flag/shell-flag_000002.vtp");
+  for (const char* field : {"displacement", "velocity", "pressure_minus", "pressure_plus", "shear_minus", "shear_plus"})
+    EXPECT_NE(shell.find("Name=\"" + std::string(field) + "\""), std::string::npos) << field;
+}
+
+TEST(ACoupledRun, IsRepeatedToTheLastDigitByTheCaseThatItWrote)
+{
+  const WorkFolder folder;
+  run_well(folder, small_flag, "first", {"--set", "fluid.viscosity=0.02", "--resolution", "0.75"});
+  run_well(folder, folder.read("first/case.toml"), "second");
+  expect_same_numbers(folder, "first", "second");
+  EXPECT_EQ(folder.read("first/case.toml"), folder.read("second/case.toml"));
+}
+
+TEST(ACoupledRun, GivesTheSameBitsOnOneAndTwoThreads)
+{
+  const WorkFolder folder;
+  run_well(folder, small_flag, "one", {"--threads", "1"});
+  run_well(folder, small_flag, "two", {"--threads", "2"});
+  expect_same_numbers(folder, "one", "two");
+}
+
+TEST(ACoupledRun, AgreesOnOneTwoAndFourRanksTo1e7)
+{
+  const WorkFolder folder;
+  folder.write("case.toml",
+               changed(changed(small_flag, "end = 0.1", "end = 1.0"), "density = 100.0", "density = 20.0"));
+  std::map<int, std::string> outs;
+  for (const int ranks : {1, 2, 4}) {
+    outs[ranks] = "out" + std::to_string(ranks);
+    const Outcome run =
+        luff_on_ranks(ranks, folder, {"run", "case.toml", "--out", outs[ranks], "--set", "coupling.tolerance=1e-8"});
+    ASSERT_EQ(run.status, 0) << run.said;
+  }
+  for (const int ranks : {2, 4})
+    for (const char* name : {"probe-tip.csv", "probe-wake.csv", "forces-flag.csv"}) {
+      const Table one = read_table(folder.path() / outs[1] / name);
+      EXPECT_EQ(one.rows.size(), 50U);
+      const double d = difference(one, read_table(folder.path() / outs[ranks] / name));
+      EXPECT_LE(d, 1e-7) << name << " on " << ranks << " ranks";
+      RecordProperty(std::string(name) + " on " + std::to_string(ranks) + " ranks", std::to_string(d));
+      std::cout << name << ", " << ranks << " ranks against 1: " << d << "\n";
+    }
+}
+
+TEST(Runs, AreNumberedByCaseAndNeverWrittenOver)
+{
+  const WorkFolder folder;
+  std::filesystem::create_directory(folder.path() / "wing");
+  folder.write("wing/case.toml", small_strip);
+  folder.write("strip.toml", small_strip);
+  for (const char* file : {"wing/case.toml", "wing/case.toml", "strip.toml"})
+    ASSERT_EQ(luff(folder, {"run", file}).status, 0);
+  for (const char* made : {"runs/wing/001", "runs/wing/002", "runs/strip/001"})
+    EXPECT_TRUE(folder.has(std::filesystem::path(made) / "summary.json")) << made;
+}
+
+TEST(Runs, FollowOverridesFromTheCommandLine)
+{
+  const WorkFolder folder;
+  run_well(folder, small_strip, "out", {"--set", "time.end=0.1", "--set", "shell.strip.density=2"});
+  EXPECT_EQ(read_summary(folder.path() / "out")["t"], 0.1);
+  EXPECT_NE(folder.read("out/case.toml").find("density = 2\n"), std::string::npos) << folder.read("out/case.toml");
+}
+
+TEST(Runs, HaveMoreCellsAndShorterStepsAtAHigherResolution)
+{
+  const WorkFolder folder;
+  run_well(folder, small_flag, "out", {"--resolution", "0.5"});
+  const nlohmann::json summary = read_summary(folder.path() / "out");
+  EXPECT_EQ(summary["cells"], 12 * 8 * 4);
+  EXPECT_EQ(summary["steps"], 3);  // 0.1 in steps of 0.04 at most
+}
+
+TEST(AFlowAlone, RunsAndWritesNoShellFiles)
+{
+  const WorkFolder folder;
+  run_well(folder, small_flag.substr(0, small_flag.find("[[shell]]")) + "[output]\nfields = { every = 0.1 }\n");
+  EXPECT_EQ(read_table(folder.path() / "out/steps.csv").rows.size(), 5U);
+  EXPECT_EQ(read_series(folder.path() / "out/fields.pvd").size(), 2U);
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out"))
+    EXPECT_FALSE(entry.path().filename().string().starts_with("shell-")) << entry.path();
+}
+
+TEST(AFlowAlone, KeepsAUniformStreamToRoundOff)
+{
+  const WorkFolder folder;
+  run_well(folder, small_flag.substr(0, small_flag.find("[[shell]]")) +
+                       "[[output.probe]]\nname = \"wake\"\npoint = [1.5, 0.1, 0.2]\n");
+  const Table wake = read_table(folder.path() / "out/probe-wake.csv");
+  for (const double u : wake.column("velocity_x [velocity]"))
+    EXPECT_NEAR(u, 1.0, 1e-13);
+  for (const double v : wake.column("velocity_y [velocity]"))
+    EXPECT_NEAR(v, 0.0, 1e-13);
+}
+
+TEST(AFixedBody, RunsInAStreamAndFeelsIt)
+{
+  const WorkFolder folder;
+  run_well(folder,
+           small_flag.substr(0, small_flag.find("[[shell]]")) +
+               "[[body]]\nname = \"plate\"\nmesh = { shape = \"rectangle\", origin = [0.01, -0.3, -0.3], a = [0, 0.6, "
+               "0], b = [0, 0, 0.6], divisions = [4, 4] }\n[output]\nshells = { every = 0.1 }\n");
+  for (const double drag : read_table(folder.path() / "out/forces-plate.csv").column("force_x [force]"))
+    EXPECT_GT(drag, 0.1);
+  EXPECT_EQ(read_series(folder.path() / "out/body-plate.pvd").size(), 2U);
+}
+
+TEST(AStructureAlone, MovesInTimeWithTheWorkDoneOnItAsEnergy)
+{
+  const WorkFolder folder;
+  run_well(folder, changed(small_strip, "step = 0.05", "step = 0.005"));
+  EXPECT_EQ(read_table(folder.path() / "out/steps.csv").head, step_columns);
+  const Table steps = read_table(folder.path() / "out/steps.csv");
+  const double kinetic = steps.column("kinetic [energy]").back();
+  const double elastic = steps.column("elastic [energy]").back();
+  const double work = steps.column("external_work [energy]").back();
+  EXPECT_GT(work, 0.0);
+  EXPECT_NEAR(kinetic + elastic, work, 1e-3 * work);
+  EXPECT_TRUE(std::isnan(steps.column("cfl").back()));
+  EXPECT_FALSE(folder.has("out/forces-strip.csv"));
+  EXPECT_FALSE(folder.has("out/fields.pvd"));
+}
+
+TEST(AStructureAlone, IsLoadedToItsEquilibriumInAStaticRun)
+{
+  const WorkFolder folder;
+  std::string text =
+      changed(small_strip, "[time]\nend = 0.5\nstep = 0.05\n", "[structure]\nanalysis = \"static\"\nsteps = 4\n");
+  run_well(folder, changed(text, "divisions = [4, 1]", "divisions = [16, 4]"));
+  const Table end = read_table(folder.path() / "out/probe-end.csv");
+  EXPECT_EQ(end.head, (Columns{"load_factor", "displacement_x [length]", "displacement_y [length]",
+                               "displacement_z [length]", "newton_iterations"}));
+  EXPECT_EQ(end.column("load_factor"), (std::vector<double>{0.25, 0.5, 0.75, 1.0}));
+  EXPECT_EQ(read_series(folder.path() / "out/shell-strip.pvd").size(), 5U);
+  // A slender beam: w = F L^3/(3 E I), with F what the formula gives at t = 1.
+  const double stiffness = 1000.0 * 0.25 * std::pow(0.05, 3) / 12.0;
+  const double deflection = 0.001 / (3.0 * stiffness);
+  EXPECT_NEAR(end.column("displacement_z [length]").back(), deflection, 0.05 * deflection);
+}
+
+TEST(Commands, CheckPrintsTheGroupsOfAValidCaseAndWritesNothing)
+{
+  const WorkFolder folder;
+  folder.write("case.toml", small_flag);
+  const Outcome check = luff(folder, {"check", "case.toml"});
+  EXPECT_EQ(check.status, 0);
+  for (const char* word : {"24 x 16 x 8 = 3072 cells", "Reynolds number", "mass ratio", "bending stiffness",
+                           "35 vertices, 48 triangles", "the case is valid"})
+    EXPECT_NE(check.said.find(word), std::string::npos) << word << " in " << check.said;
+  EXPECT_FALSE(folder.has("runs"));
+}
+
+TEST(Commands, OptionsPrintsEveryTable)
+{
+  const WorkFolder folder;
+  const Outcome options = luff(folder, {"options"});
+  EXPECT_EQ(options.status, 0);
+  for (const char* word : {"[time]", "[[shell]]", "[coupling]", "[[output.probe]]"})
+    EXPECT_NE(options.said.find(word), std::string::npos) << word;
+}
+
+TEST(Commands, MeshWritesGridAndSurfaces)
+{
+  const WorkFolder folder;
+  folder.write("case.toml", small_flag);
+  const Outcome mesh = luff(folder, {"mesh", "case.toml", "--out", "mesh"});
+  EXPECT_EQ(mesh.status, 0) << mesh.said;
+  EXPECT_EQ(read_series(folder.path() / "mesh/grid.pvd").size(), 1U);
+  EXPECT_EQ(read_series(folder.path() / "mesh/flag.pvd").size(), 1U);
+}
+
+TEST(Commands, PlotMakesPicturesOfARun)
+{
+  const WorkFolder folder;
+  run_well(folder, small_flag);
+  const Outcome plot = luff(folder, {"plot", "out"});
+  EXPECT_EQ(plot.status, 0) << plot.said;
+  for (const char* picture : {"probe-tip.png", "forces-flag.png", "steps.png", "vorticity.png", "shapes.png"})
+    EXPECT_TRUE(folder.has(std::filesystem::path("out/plots") / picture)) << picture << "\n" << plot.said;
+}
+
+TEST(ShippedCases, AllPassTheCheck)
+{
+  const WorkFolder folder;
+  int cases = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(LUFF_SOURCE_DIR) + "/cases")) {
+    if (entry.path().extension() != ".toml")
+      continue;
+    ++cases;
+    const Outcome check = luff(folder, {"check", entry.path().string()});
+    EXPECT_EQ(check.status, 0) << entry.path() << ": " << check.said;
+  }
+  EXPECT_GE(cases, 7);
+}
+
+}  // namespace
+}  // namespace luff::testing
