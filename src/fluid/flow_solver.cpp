@@ -111,14 +111,13 @@ poisson::Report FlowSolver::project(std::span<const Vec3> sheet_velocity)
   bind_to_walls(2, /*current_velocity=*/true);
   compute_fluxes(now);
   const poisson::Report report = project_stage(step_.dt, 0.0);
-  immersed::recover_velocity(grid_, links_, views(std::as_const(U_)), now, views(u_));
-  update_load_pressure();
+  recover(now);
+  update_load_fields();
   return report;
 }
 
 void FlowSolver::accept()
 {
-  recover({1.0, SheetVelocity::Current});
   links_.accept();
   state_.u = u_;
   std::swap(state_.U, U_);
@@ -168,6 +167,7 @@ void FlowSolver::replace_rates_of_cut_cells(int stage, const operators::StageWei
   const std::vector<immersed::CutCell>& cells = links_.cells();
   terms_.resize(cells.size());
   explicit_increment_.resize(cells.size());
+  u_star_.resize(cells.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t n = 0; n < cells.size(); ++n)
     terms_[n] = immersed::momentum_terms(grid_, links_, cells[n], views(std::as_const(u_)), options_.viscosity,
@@ -209,10 +209,9 @@ void FlowSolver::bind_to_walls(int stage, bool current_velocity)
                          : terms_[n].wall_source;
     const Vec3 push = k * immersed::pressure_gradient(grid_, cut, p_.view());
     const Vec3 u_old = at(views(std::as_const(state_.u)), cut.cell);
-    const Vec3 u_star =
-        (u_old + explicit_increment_[n] + implicit * source - push) / (1.0 + implicit * terms_[n].wall_rate);
+    u_star_[n] = (u_old + explicit_increment_[n] + implicit * source - push) / (1.0 + implicit * terms_[n].wall_rate);
     for (int d = 0; d < 3; ++d)
-      increment_[d].view()(cut.cell) = u_star[d] + push[d] - u_old[d];
+      increment_[d].view()(cut.cell) = u_star_[n][d] + push[d] - u_old[d];
   }
 }
 
@@ -328,9 +327,9 @@ void FlowSolver::repair_pressure()
   boundary_.fill_pressure(p);
 }
 
-/// p at t^{n+1} from the half levels, 3/2 p^{n+1/2} - 1/2 p^{n-1/2}; not where the sheet swept over the centre, nor
-/// before two half levels are known.
-void FlowSolver::update_load_pressure()
+/// u with its halo, and p at t^{n+1} from the half levels, 3/2 p^{n+1/2} - 1/2 p^{n-1/2}; not where the sheet swept
+/// over the centre, nor before two half levels are known.
+void FlowSolver::update_load_fields()
 {
   const auto timer = profile_.time(Phase::Loads);
   const double w = state_.steps > 1 ? 0.5 : 0.0;
@@ -340,13 +339,17 @@ void FlowSolver::update_load_pressure()
   });
   for (const Index3& c : links_.flipped())
     p_load(c) = p_.view()(c);
-  halo_.exchange({p_load});
+  halo_.exchange({p_load, u_[0].view(), u_[1].view(), u_[2].view()});
   boundary_.fill_pressure(p_load);
 }
 
 immersed::LoadFields FlowSolver::load_fields() const
 {
-  return {.p = p_load_.view(), .u = views(u_), .density = options_.density, .viscosity = options_.viscosity};
+  return {.p = p_load_.view(),
+          .u = views(u_),
+          .u_star = u_star_,
+          .density = options_.density,
+          .viscosity = options_.viscosity};
 }
 
 immersed::SheetLoads FlowSolver::loads() const

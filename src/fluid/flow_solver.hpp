@@ -104,7 +104,7 @@ class FlowSolver {
   [[noreturn]] void fail_as_no_number() const;
   void recover(const immersed::StageTime& time);
   void repair_pressure();
-  void update_load_pressure();
+  void update_load_fields();
   [[nodiscard]] double largest_speed() const;
   [[nodiscard]] double largest_flux_velocity() const;
   [[nodiscard]] immersed::LoadFields load_fields() const;
@@ -130,6 +130,7 @@ class FlowSolver {
 
   std::vector<immersed::CutCellTerms> terms_;  ///< of links_.cells()
   std::vector<Vec3> explicit_increment_;       ///< du of cut cells before the implicit wall terms of the stage
+  std::vector<Vec3> u_star_;                   ///< velocity of cut cells that the wall terms of the stage have seen
 };
 
 }  // namespace luff::fluid

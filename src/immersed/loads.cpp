@@ -16,26 +16,43 @@ struct HitTraction {
   Vec3 viscous = Vec3::Zero();
 };
 
-/// The side of a hit towards the centre of one of the owned cells next to it.
-///
-/// `side` is the link's side as seen from the cell: 1 when the hit lies on the cell's high link.
-HitTraction one_sided(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const CutCell& cut,
-                      int axis, int side)
+/// A hit as seen from the centre of one of the owned cells next to it.
+struct HitView {
+  const CutCell& cut;
+  std::size_t n;  ///< number of the cell among links.cells()
+  int axis;
+  int side;  ///< of the link as seen from the cell: 1 when the hit lies on its high link
+
+  [[nodiscard]] const CutFace& face(const CutLinks& links) const { return links.faces()[cut.face[2 * axis + side]]; }
+  [[nodiscard]] int hit(const CutLinks& links) const { return side == 1 ? face(links).first : face(links).last; }
+  /// The link behind the cell, away from the hit, and the cell there.
+  [[nodiscard]] bool open_behind() const { return cut.face[2 * axis + 1 - side] == open_link; }
+  [[nodiscard]] Index3 behind() const { return stepped(cut.cell, axis, side == 1 ? -1 : 1); }
+};
+
+/// nu times the velocity gradient that the momentum stencil of the cell takes its momentum with; see sheet_loads().
+Vec3 wall_shear(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const HitView& view,
+                double to_sheet, double to_behind)
 {
-  const CutFace& face = links.faces()[cut.face[2 * axis + side]];
-  const int hit = side == 1 ? face.first : face.last;
-  const double d = grid.distance(axis, face.cell[axis]);
-  const double theta = side == 1 ? links.crossings()[hit].theta : 1.0 - links.crossings()[hit].theta;
-  const double p_here = fields.p(cut.cell);
-  double slope = 0.0;  // of p towards the sheet
-  if (cut.face[2 * axis + 1 - side] == open_link) {
-    const double d_behind = grid.distance(axis, cut.cell[axis] + 1 - side);
-    slope = (p_here - fields.p(stepped(cut.cell, axis, side == 1 ? -1 : 1))) / d_behind;
-  }
-  const Vec3 u_b = links.velocity(hit, {1.0, SheetVelocity::Current});
-  return {
-      .pressure = fields.density * (p_here + theta * d * slope),
-      .viscous = fields.density * fields.viscosity / (std::max(theta, theta_min) * d) * (at(fields.u, cut.cell) - u_b)};
+  const Vec3 u_b = links.velocity(view.hit(links), {1.0, SheetVelocity::Current});
+  const Vec3 at_wall = fields.viscosity / to_sheet * (fields.u_star[view.n] - u_b);
+  if (!view.open_behind())
+    return at_wall;
+  const Vec3 behind = fields.viscosity / to_behind * (at(fields.u, view.behind()) - at(fields.u, view.cut.cell));
+  const double excess = grid.width(view.axis, view.cut.cell[view.axis]) / (0.5 * (to_sheet + to_behind)) - 1.0;
+  return at_wall + excess * (at_wall - behind);
+}
+
+HitTraction one_sided(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const HitView& view)
+{
+  const CutFace& face = view.face(links);
+  const double d = grid.distance(view.axis, face.cell[view.axis]);
+  const double d_behind = grid.distance(view.axis, view.cut.cell[view.axis] + 1 - view.side);
+  const double theta = view.side == 1 ? links.crossings()[face.first].theta : 1.0 - links.crossings()[face.last].theta;
+  const double p_here = fields.p(view.cut.cell);
+  const double slope = view.open_behind() ? (p_here - fields.p(view.behind())) / d_behind : 0.0;  // towards the sheet
+  return {.pressure = fields.density * (p_here + theta * d * slope),
+          .viscous = fields.density * wall_shear(grid, links, fields, view, std::max(theta, theta_min) * d, d_behind)};
 }
 
 /// The side of a hit that looks into the gap between two hits of one link: mean pressure, Couette shear.
@@ -55,15 +72,16 @@ HitTraction in_gap(const grid::Grid& grid, const CutLinks& links, const LoadFiel
 template <class Visit>
 void for_each_hit_side(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, Visit visit)
 {
-  for (const CutCell& cut : links.cells())
+  for (std::size_t n = 0; n < links.cells().size(); ++n)
     for (int axis = 0; axis < 3; ++axis) {
+      const CutCell& cut = links.cells()[n];
       const double area = grid.area(axis, cut.cell[0], cut.cell[1], cut.cell[2]);
       for (int side = 0; side < 2; ++side) {
         const int f = cut.face[2 * axis + side];
         if (f == open_link)
           continue;
         const CutFace& face = links.faces()[f];
-        visit(side == 1 ? face.first : face.last, 1 - side, one_sided(grid, links, fields, cut, axis, side), area);
+        visit(side == 1 ? face.first : face.last, 1 - side, one_sided(grid, links, fields, {cut, n, axis, side}), area);
         if (side == 1)
           continue;
         for (int q = face.first; q < face.last; ++q) {

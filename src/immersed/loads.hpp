@@ -27,17 +27,22 @@ struct SideTraction {
 struct LoadFields {
   View<const double> p;
   View3<const double> u;
+  std::span<const Vec3> u_star;  ///< of links.cells(): the velocity that the implicit wall terms have seen
   double density = 1.0;
   double viscosity = 0.0;  ///< kinematic
 };
 
-/// Force on every vertex.  Each cut link in direction d samples the projected area n_d dS = A_d:
+/// Force on every vertex.  Each cut link in direction d samples the projected area n_d dS = A_d; its two sides give
 ///
-///   f = rho A_d { -(p_R - p_L) e_d + nu [ (u_R - u_b)/((1-theta) d) - (u_b - u_L)/(theta d) ] },
+///   f = rho A_d { -(p_R - p_L) e_d + tau_R + tau_L },
+///   tau = h/H nu (u* - u_b)/h_k - (h/H - 1) nu (u_W - u)/h_W,
 ///
-/// theta clipped as in the momentum stencil; p_L, p_R extrapolated linearly to the sheet from the cells of the same
-/// side. The hit's force goes to the triangle's vertices with its barycentric weights: force and moment are conserved.
-/// Collective; the same numbers on every rank.
+/// what the cell's momentum stencil takes from the fluid: h is the cell's width, H = (h_k + h_W)/2 the stencil's, h_k
+/// the distance of the sheet as there (theta clipped), W the neighbour behind.  Where the shear is the same on both
+/// sides of the cell, tau = nu (u* - u_b)/h_k; where the cell slows down or speeds up, the part of its momentum that
+/// the narrower stencil leaves out is not lost (docs/numerics/immersed.md). p_L, p_R extrapolated linearly to the sheet
+/// from the cells of the same side. The hit's force goes to the triangle's vertices with its barycentric weights: force
+/// and moment are conserved. Collective; the same numbers on every rank.
 [[nodiscard]] SheetLoads sheet_loads(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields,
                                      std::size_t vertices);
 
