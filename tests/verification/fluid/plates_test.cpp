@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Forces on plates: against the momentum balance of the flow around them, moving against fixed, and at long steps.
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "support/control_volume.hpp"
+#include "support/plates.hpp"
+
+namespace luff::test {
+namespace {
+
+struct SteadyPlate {
+  const char* name;
+  double degrees;
+  double reynolds;
+  int cells_per_length;
+  Vec3 centre{0.007, 0.003, 0.0};
+};
+
+struct PlateForces {
+  Vec3 crossings;
+  Vec3 momentum;
+  double divergence = 0.0;
+};
+
+/// Cells of width h around [-1, 2] x [-1, 1], growing to [-3, 5] x [-3, 3].
+Slab slab_around_plate(int cells_per_length, double reynolds)
+{
+  const double h = 1.0 / cells_per_length;
+  const int n = cells_per_length;
+  return {.x = {-3.0, 5.0, 3 * n + 36, grid::Refinement{-1.0, 2.0, h}},
+          .y = {-3.0, 3.0, 2 * n + 34, grid::Refinement{-1.0, 1.0, h}},
+          .depth = h,
+          .stream = 1.0,
+          .viscosity = 1.0 / reynolds};
+}
+
+/// Coefficients three time units after the start, on the way to the steady state.
+PlateForces forces_on_fixed_plate(const SteadyPlate& c)
+{
+  const Slab slab = slab_around_plate(c.cells_per_length, c.reynolds);
+  const Plate plate{.degrees = c.degrees, .centre = c.centre, .divisions = c.cells_per_length};
+  const auto flow = make_flow(slab);
+  ControlVolume volume(*flow, {0.2, 0.0, 0.0}, 0.8);
+  const double dt = 0.01;
+  flow->advance(dt, 297, plate.at(0.0, slab.depth));
+  PlateForces forces;
+  for (int n = 0; n < 3; ++n) {
+    flow->step(dt, plate.at(0.0, slab.depth));
+    forces.crossings = coefficients(total_force(flow->solver.loads()), slab.depth);
+    flow->solver.accept();
+    volume.record(dt);
+  }
+  forces.momentum = coefficients(volume.force(), slab.depth);
+  forces.divergence = flow->largest_divergence;
+  return forces;
+}
+
+class SteadyPlates : public ::testing::TestWithParam<SteadyPlate> {};
+
+TEST_P(SteadyPlates, FeelWhatTheFlowAroundThemLosesToThreePercent)
+{
+  const PlateForces forces = forces_on_fixed_plate(GetParam());
+  const double error = (forces.crossings - forces.momentum).norm() / forces.momentum.norm();
+  std::cout << "  " << GetParam().name << ", h = L/" << GetParam().cells_per_length << ": crossings ("
+            << forces.crossings[0] << ", " << forces.crossings[1] << "), momentum (" << forces.momentum[0] << ", "
+            << forces.momentum[1] << "), apart " << 100.0 * error << " %; divergence " << forces.divergence << '\n';
+  EXPECT_LE(error, 0.03);
+  EXPECT_LE(forces.divergence, 1e-13);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Plates, SteadyPlates,
+    ::testing::Values(SteadyPlate{"normal", 90.0, 20.0, 20}, SteadyPlate{"inclined by 70 degrees", 70.0, 50.0, 20},
+                      SteadyPlate{"inclined by 30 degrees", 30.0, 50.0, 20},
+                      SteadyPlate{"the same elsewhere in the grid", 30.0, 50.0, 20, {-0.013, 0.008, 0.0}},
+                      SteadyPlate{"inclined by 30 degrees", 30.0, 50.0, 40},
+                      SteadyPlate{"parallel", 0.0, 100.0, 20, {0.007, 0.003, 0.0}},
+                      SteadyPlate{"parallel", 0.0, 100.0, 40, {0.007, 0.013, 0.0}}),
+    [](const auto& tested) { return "Case" + std::to_string(tested.index); });
+
+/// Force on a plate at 70 degrees, Re = 100, h = L/25, over time.
+struct History {
+  double dt = 0.0;
+  std::vector<Vec3> force;
+
+  /// The part after the start-up.
+  [[nodiscard]] std::size_t settled() const { return static_cast<std::size_t>(std::lround(0.8 / dt)); }
+  [[nodiscard]] Vec3 mean() const
+  {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t n = settled(); n < force.size(); ++n)
+      sum += force[n];
+    return sum / static_cast<double>(force.size() - settled());
+  }
+};
+
+/// Through still fluid (stream 0) or fixed in a stream, the same motion of one against the other.
+History history_of_plate(double stream, double dt, const Vec3& centre)
+{
+  const double h = 0.04;
+  const Slab slab{.x = {-5.0, 4.0, 100 + 32, grid::Refinement{-2.8, 1.2, h}},
+                  .y = {-3.0, 3.0, 40 + 34, grid::Refinement{-0.8, 0.8, h}},
+                  .depth = h,
+                  .stream = stream,
+                  .viscosity = 0.01};
+  const Plate plate{.degrees = 70.0, .centre = centre, .velocity = {stream - 1.0, 0.0, 0.0}};
+  const auto flow = make_flow(slab);
+  History history{.dt = dt, .force = {}};
+  for (int n = 0; n < std::lround(2.0 / dt); ++n) {
+    flow->step(dt, plate.at(flow->t + dt, slab.depth));
+    history.force.push_back(coefficients(total_force(flow->solver.loads()), slab.depth));
+    flow->solver.accept();
+  }
+  return history;
+}
+
+/// Root mean square of what a running cubic fit over `window` leaves of the force along x.
+double noise(const History& history, double window)
+{
+  const int m = static_cast<int>(std::lround(0.5 * window / history.dt));
+  double square = 0.0;
+  int count = 0;
+  // The cubic's value in the middle of the window: weights of Savitzky and Golay.
+  const double w0 = (3.0 * m * (m + 1.0) - 1.0) * 3.0;
+  const double scale = (2.0 * m + 1.0) * (4.0 * m * (m + 1.0) - 3.0);
+  for (std::size_t n = history.settled() + m; n + m < history.force.size(); ++n) {
+    double smooth = 0.0;
+    for (int k = -m; k <= m; ++k)
+      smooth += (w0 - 15.0 * k * k) / scale * history.force[n + k][0];
+    square += std::pow(history.force[n][0] - smooth, 2);
+    ++count;
+  }
+  return std::sqrt(square / count);
+}
+
+TEST(MovingPlate, FeelsTheForceOfTheSamePlateFixedInAStreamWithLittleNoiseAtAnyStep)
+{
+  const Vec3 centre{0.007, 0.003, 0.0};
+  const History fixed = history_of_plate(1.0, 0.005, centre);
+  const History moving = history_of_plate(0.0, 0.005, centre);
+  const History small_steps = history_of_plate(0.0, 0.00125, centre);
+  const double drag = fixed.mean()[0];
+  const double rms = noise(moving, 0.16);
+  const double rms_small_steps = noise(small_steps, 0.16);
+  std::cout << "  mean drag fixed " << drag << ", moving " << moving.mean()[0] << " and with dt/4 "
+            << small_steps.mean()[0] << "; lift " << fixed.mean()[1] << ", " << moving.mean()[1] << ", "
+            << small_steps.mean()[1] << "; noise " << 100.0 * rms / drag << " % and with dt/4 "
+            << 100.0 * rms_small_steps / drag << " % of the drag\n";
+  EXPECT_NEAR(moving.mean()[0], drag, 0.01 * drag);
+  EXPECT_NEAR(small_steps.mean()[0], drag, 0.01 * drag);
+  EXPECT_LE(rms, 0.06 * drag);
+  EXPECT_LE(rms_small_steps, 0.06 * drag);
+}
+
+class LongSteps : public ::testing::TestWithParam<double> {};
+
+/// Every step as long as the largest sum_d |U_d| dt/h_d over all cells allows, for cell Reynolds numbers U h/nu.
+TEST_P(LongSteps, UpToTheRecommendedLimitKeepAMovingPlateStable)
+{
+  const double h = 0.04;
+  const Slab slab{.x = {-5.0, 4.0, 100 + 32, grid::Refinement{-2.8, 1.2, h}},
+                  .y = {-3.0, 3.0, 40 + 34, grid::Refinement{-0.8, 0.8, h}},
+                  .depth = 0.2,
+                  .stream = 0.0,
+                  .viscosity = h / GetParam()};
+  const Plate plate{.degrees = 70.0, .centre = {0.007, 0.003, 0.0}, .velocity = {-1.0, 0.0, 0.0}};
+  const auto flow = make_flow(slab);
+  double largest = 0.0;
+  int steps = 0;
+  for (; flow->t < 2.0; ++steps) {
+    const double dt = fluid::convective_limit / std::max(flow->solver.convective_rate(), 1.0 / h);
+    flow->step(dt, plate.at(flow->t + dt, slab.depth));
+    if (flow->t > 0.5)
+      largest = std::max(largest, coefficients(total_force(flow->solver.loads()), slab.depth).norm());
+    flow->solver.accept();
+  }
+  std::cout << "  sum of |U_d| dt/h_d = " << fluid::convective_limit << ", cell Re " << GetParam() << ": " << steps
+            << " steps, largest force coefficient after the start " << largest << '\n';
+  EXPECT_GE(fluid::convective_limit, 1.0);
+  EXPECT_LE(largest, 7.0);
+  EXPECT_LE(flow->largest_divergence, 1e-13);
+}
+
+INSTANTIATE_TEST_SUITE_P(CellReynolds, LongSteps, ::testing::Values(4.0, 16.0, 160.0),
+                         [](const auto& tested) { return std::to_string(static_cast<int>(tested.param)); });
+
+}  // namespace
+}  // namespace luff::test
