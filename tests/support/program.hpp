@@ -19,7 +19,7 @@
 
 #include <gtest/gtest.h>
 
-namespace luff::testing {
+namespace luff::test {
 
 inline std::string contents_of(const std::filesystem::path& file)
 {
@@ -156,4 +156,4 @@ inline Outcome luff_on_ranks(int ranks, const WorkFolder& folder, const std::vec
       .wait();
 }
 
-}  // namespace luff::testing
+}  // namespace luff::test

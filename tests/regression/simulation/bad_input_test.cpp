@@ -2,7 +2,7 @@
 // Bad input ends the program with status 2 and a message that says where and what to do, before anything is written.
 #include "small_cases.hpp"
 
-namespace luff::testing {
+namespace luff::test {
 namespace {
 
 /// One way to spoil the small flag, and words that the message must hold.
@@ -274,4 +274,4 @@ TEST(BadInput, MoreRanksThanRowsOfCellsAreRefused)
 }
 
 }  // namespace
-}  // namespace luff::testing
+}  // namespace luff::test

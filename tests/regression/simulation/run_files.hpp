@@ -11,7 +11,7 @@
 
 #include "support/program.hpp"
 
-namespace luff::testing {
+namespace luff::test {
 
 /// A CSV file: its head, and a row of numbers per line (NaN where a place is empty).
 struct Table {
@@ -82,4 +82,4 @@ inline std::vector<double> read_series(const std::filesystem::path& pvd)
   return times;
 }
 
-}  // namespace luff::testing
+}  // namespace luff::test

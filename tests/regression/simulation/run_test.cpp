@@ -5,7 +5,7 @@
 #include "run_files.hpp"
 #include "small_cases.hpp"
 
-namespace luff::testing {
+namespace luff::test {
 namespace {
 
 using Columns = std::vector<std::string>;
@@ -312,4 +312,4 @@ TEST(ShippedCases, AllPassTheCheck)
 }
 
 }  // namespace
-}  // namespace luff::testing
+}  // namespace luff::test

@@ -6,7 +6,7 @@
 
 #include "support/program.hpp"
 
-namespace luff::testing {
+namespace luff::test {
 
 /// A flag in a stream on a coarse grid, five steps; the tests of bad input count its lines.
 inline const std::string small_flag = R"toml(title = "Small flag"
@@ -84,4 +84,4 @@ inline std::string changed(std::string text, const std::string& from, const std:
   return text.replace(position, from.size(), to);
 }
 
-}  // namespace luff::testing
+}  // namespace luff::test

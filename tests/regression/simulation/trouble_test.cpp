@@ -4,7 +4,7 @@
 #include "run_files.hpp"
 #include "small_cases.hpp"
 
-namespace luff::testing {
+namespace luff::test {
 namespace {
 
 /// Every table of the run has whole lines and as many rows as steps were accepted; every series can be opened.
@@ -209,4 +209,4 @@ TEST(SeveralRanks, EndWithoutHangingWhenTheRunFails)
 }
 
 }  // namespace
-}  // namespace luff::testing
+}  // namespace luff::test
