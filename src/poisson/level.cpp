@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <omp.h>
+
 namespace luff::poisson {
 
 namespace {
@@ -48,6 +50,7 @@ Level::Level(const Box& box, const IndexBox& owned, const Neighbourhood* neighbo
   const bool odd = box.lines[0].odd_seam() || box.lines[1].odd_seam() || box.lines[2].odd_seam();
   residual_colours_ = odd ? Colours::Both : Colours::Red;
   make_tables();
+  prepare_threads();
   set_cuts(Cuts{});
 }
 
@@ -113,14 +116,17 @@ inline CleanRow clean_row(const float* values, const Stencil& s, const Faces& c,
           c.k_high};
 }
 
-/// 1 / diagonal along rows, kept from row to row while the widths across them stay the same.
+}  // namespace
+
+namespace {
+
+/// 1 / diagonal along the rows of a plane, kept from row to row while the widths across them stay the same.
 class InverseDiagonal {
  public:
   using Tables = std::array<std::vector<float>, 2>;
-  InverseDiagonal(const Tables& ends, const Tables& width) : ends_(ends), width_(width)
+  InverseDiagonal(const Tables& ends, const Tables& width, Tables& values)
+      : ends_(ends), width_(width), values_{values[0].data(), values[1].data()}
   {
-    for (int q = 0; q < 2; ++q)
-      values_[q].resize(ends[q].size());
   }
 
   template <class Faces>
@@ -130,30 +136,37 @@ class InverseDiagonal {
     if (c.row != row_[parity] || across != across_[parity]) {
       row_[parity] = c.row;
       across_[parity] = across;
-      float* __restrict out = values_[parity].data();
+      float* __restrict out = values_[parity];
       const float* __restrict ends = ends_[parity].data();
       const float* __restrict width = width_[parity].data();
-      const int count = static_cast<int>(values_[parity].size());
+      const int count = static_cast<int>(ends_[parity].size());
 #pragma omp simd
       for (int n = 0; n < count; ++n)
         out[n] = 1.0f / (c.row * ends[n] + across * width[n]);
     }
-    return values_[parity].data();
+    return values_[parity];
   }
 
  private:
   const Tables& ends_;
   const Tables& width_;
-  Tables values_;
+  std::array<float*, 2> values_;
   std::array<float, 2> row_{-1.0f, -1.0f};
   std::array<float, 2> across_{-1.0f, -1.0f};
 };
 
 }  // namespace
 
+void Level::prepare_threads()
+{
+  const auto threads = static_cast<std::size_t>(omp_get_max_threads());
+  if (inverse_rows_.size() < threads)
+    inverse_rows_.resize(threads, ends_);
+}
+
 void Level::start_plane(int k)
 {
-  InverseDiagonal diagonal(ends_, width_);
+  InverseDiagonal diagonal(ends_, width_, inverse_rows_[omp_get_thread_num()]);
   for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
     const Stencil s = stencil(j, k, 0);
     const Faces c = faces(j, k);
@@ -176,7 +189,7 @@ void Level::start_plane(int k)
 
 void Level::relax_plane(int k, int colour)
 {
-  InverseDiagonal diagonal(ends_, width_);
+  InverseDiagonal diagonal(ends_, width_, inverse_rows_[omp_get_thread_num()]);
   for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
     const Stencil s = stencil(j, k, colour);
     const Faces c = faces(j, k);

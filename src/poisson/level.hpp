@@ -36,6 +36,8 @@ class Level {
   [[nodiscard]] std::ptrdiff_t place(const Cuts& cuts, Unknown x) const;
   [[nodiscard]] bool owns(const Cuts& cuts, Unknown x) const;
 
+  /// Makes room for the threads that now work on planes.
+  void prepare_threads();
   /// u = f / diagonal on red cells of plane k: a red half sweep from u = 0.
   void start_plane(int k);
   void relax_plane(int k, int colour);
@@ -93,6 +95,7 @@ class Level {
   Colours residual_colours_;
   std::array<std::vector<float>, 2> left_, right_, ends_, width_;  // along rows, per parity of i
   std::array<std::vector<float>, 2> widths_, inverse_distances_;   // along j and k
+  std::vector<std::array<std::vector<float>, 2>> inverse_rows_;    // scratch of each thread
   int extras_ = 0;
   std::vector<int> owned_extras_;
   std::vector<Row> rows_;

@@ -11,7 +11,7 @@ RowExchange::RowExchange(const Layout& layout, const std::array<Line, 3>& lines,
   for (int a = 0; a < 3; ++a) {
     const bool split = neighbourhood != nullptr && neighbourhood->split[a];
     cells_[a] = lines[a].n;
-    wraps_[a] = lines[a].periodic && !split;
+    wraps_[a] = lines[a].periodic && lines[a].n > 1 && !split;
     seam_flips_[a] = lines[a].periodic && lines[a].n % 2 == 1;
     any_rank_ |= split;
   }

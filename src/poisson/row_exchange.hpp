@@ -45,7 +45,7 @@ class RowExchange {
 
   Layout layout_;
   Index3 cells_{};
-  std::array<bool, 3> wraps_{};  ///< periodic, and whole on this rank
+  std::array<bool, 3> wraps_{};  ///< periodic over more than one cell, and whole on this rank
   std::array<bool, 3> seam_flips_{};
   const Neighbourhood* neighbourhood_;
   bool any_rank_ = false;
