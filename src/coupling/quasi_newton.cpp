@@ -81,7 +81,7 @@ Eigen::VectorXd QuasiNewton::next(const Eigen::VectorXd& d, const Eigen::VectorX
   Iterate now{d_tilde - d, d_tilde};
   if (last_)
     learn(now);
-  const FilteredQr qr = filtered_qr(newest_first(), filter_);
+  const FilteredQr qr = filtered_qr(newest_first(now.residual.norm()), filter_);
   columns_used_ = static_cast<int>(qr.kept.size());
 
   Eigen::VectorXd guess = d_tilde;
@@ -112,12 +112,12 @@ void QuasiNewton::end_step(bool converged)
 void QuasiNewton::learn(const Iterate& now)
 {
   watch_growth(now.residual.norm());
-  Difference change{now.residual - last_->residual, now.image - last_->image};
-  const double length = change.residual.norm();
-  if (length == 0)
+  Difference change{0, now.residual - last_->residual, now.image - last_->image};
+  change.length = change.residual.norm();
+  if (change.length == 0)
     return;
-  change.residual /= length;
-  change.image /= length;
+  change.residual /= change.length;
+  change.image /= change.length;
   current_.push_front(std::move(change));
 }
 
@@ -128,14 +128,15 @@ void QuasiNewton::watch_growth(double residual_norm)
     past_.clear();
 }
 
-std::vector<const Difference*> QuasiNewton::newest_first() const
+std::vector<const Difference*> QuasiNewton::newest_first(double residual_norm) const
 {
   std::vector<const Difference*> columns;
   for (const Difference& change : current_)
     columns.push_back(&change);
   for (const auto& step : past_)
     for (const Difference& change : step)
-      columns.push_back(&change);
+      if (largest_stretch * change.length >= residual_norm)
+        columns.push_back(&change);
   return columns;
 }
 

@@ -13,9 +13,18 @@ namespace luff::coupling {
 /// A change of the residual r = d~ - d and the change of the image d~ that came with it,
 /// both divided by the length of the former, so that steps of any size weigh the same.
 struct Difference {
+  double length = 0;  ///< of the former before the division
   Eigen::VectorXd residual;
   Eigen::VectorXd image;
 };
+
+/// How far a difference of a past step may be stretched to meet a residual.
+///
+/// The last differences of a step are as small as its tolerance; stretched too far, the round-off in them grows with
+/// them. Measured over fifty steps of a flag on one, two and four ranks: without a bound the forces drifted apart by
+/// 1e-5, with 100 by 2e-6, with 50 by 4e-11; the lightest shells (mass ratio 0.01) take 11.8 iterations instead
+/// of 10.7.
+inline constexpr double largest_stretch = 50;
 
 /// d_{k+1} = d~_k + W a  with  a = argmin |V a + r_k|,  V and W the differences of r and d~, newest first,
 /// by this step's iterations and then by those of the last `reused_steps` accepted steps.
@@ -42,7 +51,7 @@ class QuasiNewton : public Acceleration {
 
   void learn(const Iterate& now);
   void watch_growth(double residual_norm);
-  std::vector<const Difference*> newest_first() const;
+  std::vector<const Difference*> newest_first(double residual_norm) const;
 
   double first_relaxation_;
   int reused_steps_;

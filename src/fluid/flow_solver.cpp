@@ -83,7 +83,9 @@ void FlowSolver::begin_step(const TimeStep& step, const immersed::SheetMotion& p
   double sheet_speed = 0.0;
   for (const Vec3& v : predicted.velocity)
     sheet_speed = std::max(sheet_speed, v.norm());
-  speed_ = std::max({largest_speed(), inflow, sheet_speed});
+  // The pressure has to take up what the forces of a step set in motion, in a fluid at rest too.
+  const double pushed = options_.acceleration.constant ? step.dt * constant_force().norm() : 0.0;
+  speed_ = std::max({largest_speed(), inflow, sheet_speed, pushed});
   u_ = state_.u;
   U_ = state_.U;
   repair_pressure();
@@ -91,17 +93,20 @@ void FlowSolver::begin_step(const TimeStep& step, const immersed::SheetMotion& p
     du.fill(0.0);
 
   advance_stage(0);
+  freeze_pressure_push(0);
   bind_to_walls(0, /*current_velocity=*/false);
   predict_with_old_pressure({stage_end_[0]});
   recover({stage_end_[0]});
 
   advance_stage(1);
+  freeze_pressure_push(1);
   bind_to_walls(1, /*current_velocity=*/false);
   compute_fluxes({stage_end_[1]});
   project_stage(stage_end_[1] * step.dt, options_.stage_reduction);
   recover({stage_end_[1]});
 
   advance_stage(2);
+  freeze_pressure_push(2);
 }
 
 poisson::Report FlowSolver::project(std::span<const Vec3> sheet_velocity)
@@ -184,14 +189,26 @@ void FlowSolver::replace_rates_of_cut_cells(int stage, const operators::StageWei
 
 void FlowSolver::add_varying_force(const operators::StageWeights& weights, double t)
 {
-  for_each_cell_in_order(grid_.owned(),
-                         [this, &weights, t, N = views(rate_), du = views(increment_)](int i, int j, int k) {
-                           const Vec3 f = options_.acceleration.value(grid_.centre(i, j, k), t);
-                           for (int d = 0; d < 3; ++d) {
-                             N[d](i, j, k) += f[d];
-                             du[d](i, j, k) += weights.new_rate * f[d];
-                           }
-                         });
+  double largest = 0.0;
+  for_each_cell_in_order(grid_.owned(), [&, N = views(rate_), du = views(increment_)](int i, int j, int k) {
+    const Vec3 f = options_.acceleration.value(grid_.centre(i, j, k), t);
+    largest = std::max(largest, f.norm());
+    for (int d = 0; d < 3; ++d) {
+      N[d](i, j, k) += f[d];
+      du[d](i, j, k) += weights.new_rate * f[d];
+    }
+  });
+  speed_ = std::max(speed_, step_.dt * grid_.ranks().max(largest));
+}
+
+/// c dt G p of the latest pressure in cut cells; frozen for the stage, so that coupling iterations see an affine map.
+void FlowSolver::freeze_pressure_push(int stage)
+{
+  const auto timer = profile_.time(Phase::CutCells);
+  const std::vector<immersed::CutCell>& cells = links_.cells();
+  pressure_push_.resize(cells.size());
+  for (std::size_t n = 0; n < cells.size(); ++n)
+    pressure_push_[n] = stage_end_[stage] * step_.dt * immersed::pressure_gradient(grid_, cells[n], p_.view());
 }
 
 /// u* = [u^n + du + delta dt sum v_k u_b - c dt G p]/(1 + delta dt sum v_k) in cut cells, and du from it.
@@ -199,7 +216,6 @@ void FlowSolver::bind_to_walls(int stage, bool current_velocity)
 {
   const auto timer = profile_.time(Phase::CutCells);
   const double implicit = delta_[stage] * step_.dt;
-  const double k = stage_end_[stage] * step_.dt;
   const std::vector<immersed::CutCell>& cells = links_.cells();
 #pragma omp parallel for schedule(static)
   for (std::size_t n = 0; n < cells.size(); ++n) {
@@ -207,7 +223,7 @@ void FlowSolver::bind_to_walls(int stage, bool current_velocity)
     const Vec3 source =
         current_velocity ? immersed::wall_source(grid_, links_, cut, options_.viscosity, {1.0, SheetVelocity::Current})
                          : terms_[n].wall_source;
-    const Vec3 push = k * immersed::pressure_gradient(grid_, cut, p_.view());
+    const Vec3& push = pressure_push_[n];
     const Vec3 u_old = at(views(std::as_const(state_.u)), cut.cell);
     u_star_[n] = (u_old + explicit_increment_[n] + implicit * source - push) / (1.0 + implicit * terms_[n].wall_rate);
     for (int d = 0; d < 3; ++d)
