@@ -22,6 +22,11 @@ constexpr std::array<double, 3> delta_{8.0 / 15.0, 2.0 / 15.0, 1.0 / 3.0};
 constexpr std::array<double, 3> stage_end_{8.0 / 15.0, 2.0 / 3.0, 1.0};
 constexpr std::array<double, 3> stage_start_{0.0, 8.0 / 15.0, 2.0 / 3.0};
 
+Vec3 constant_part(const VectorFunction& f)
+{
+  return f.constant ? f.value(Vec3::Zero(), 0.0) : Vec3::Zero();
+}
+
 }  // namespace
 
 FlowSolver::FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries boundaries,
@@ -84,8 +89,7 @@ void FlowSolver::begin_step(const TimeStep& step, const immersed::SheetMotion& p
   for (const Vec3& v : predicted.velocity)
     sheet_speed = std::max(sheet_speed, v.norm());
   // The pressure has to take up what the forces of a step set in motion, in a fluid at rest too.
-  const double pushed = options_.acceleration.constant ? step.dt * constant_force().norm() : 0.0;
-  speed_ = std::max({largest_speed(), inflow, sheet_speed, pushed});
+  speed_ = std::max({largest_speed(), inflow, sheet_speed, step.dt * constant_part(options_.acceleration).norm()});
   u_ = state_.u;
   U_ = state_.U;
   repair_pressure();
@@ -153,7 +157,7 @@ void FlowSolver::advance_stage(int stage)
   const operators::StageWeights weights{step_.dt * gamma_[stage], step_.dt * zeta_[stage]};
   // Cut cells are computed first, from the increments and rates that the sweep over all cells overwrites.
   replace_rates_of_cut_cells(stage, weights);
-  const Vec3 force = options_.acceleration.constant ? options_.acceleration.value(Vec3::Zero(), 0.0) : Vec3::Zero();
+  const Vec3 force = constant_part(options_.acceleration);
   {
     const auto timer = profile_.time(Phase::Momentum);
     operators::advance_momentum(grid_, views(std::as_const(u_)), views(std::as_const(U_)), options_.viscosity, force,
