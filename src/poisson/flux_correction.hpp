@@ -26,6 +26,12 @@ struct Outflow {
          (target.divergence > 0.0 && outflow.divergence <= target.divergence * target.speed);
 }
 
+/// The figure of a report: zero in a fluid at rest, whatever the speed.
+[[nodiscard]] inline double relative_divergence(const Outflow& outflow, const Target& target)
+{
+  return outflow.divergence == 0.0 ? 0.0 : outflow.divergence / target.speed;
+}
+
 class FluxCorrection {
  public:
   FluxCorrection(const grid::Grid& grid, const SideConditions& sides);

@@ -311,7 +311,7 @@ Report MultigridSolver::project(const View3<double>& U, const View<double>& p, d
   }
   remove_means(p, /*by_volume=*/true);
   halo_.exchange({p});
-  report.divergence = outflow.divergence / target.speed;
+  report.divergence = relative_divergence(outflow, target);
   report.worst_cell = outflow.worst_cell;
   report.converged = meets(outflow, initial_norm, target);
   return report;

@@ -309,7 +309,7 @@ Report PetscSolver::project(const View3<double>& U, const View<double>& p, doubl
   }
   remove_means(p);
   halo_.exchange({p});
-  report.divergence = outflow.divergence / target.speed;
+  report.divergence = relative_divergence(outflow, target);
   report.worst_cell = outflow.worst_cell;
   report.converged = meets(outflow, initial_norm, target);
   return report;

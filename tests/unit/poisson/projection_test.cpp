@@ -236,6 +236,20 @@ TEST(Projection, ReportsTheCellWhoseFluxesNoPressureCanBalance)
   EXPECT_LE(elsewhere, 1e-13 * 0.01);  // times the area of a face
 }
 
+TEST(Projection, LeavesAFluidAtRestAlone)
+{
+  const Problem problem{{10, 10, 10}};
+  const grid::Grid grid = problem.grid();
+  Field3<double> U = make_field3<double>(grid.owned());
+  Field<double> p(grid.owned());
+  const auto solver = make_pressure_solver(grid, problem.conditions());
+  const Report report = solver->project(views(U), p.view(), 0.1, {.divergence = 5e-14, .speed = 0.0});
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.iterations, 0);
+  EXPECT_EQ(report.divergence, 0.0);
+  EXPECT_EQ(largest(grid, p), 0.0);
+}
+
 TEST(Projection, ReportsNotANumberAndWhereItIs)
 {
   const Problem problem{{10, 10, 10}, 1.0, "NDNNNN"};
