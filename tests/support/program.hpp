@@ -103,12 +103,12 @@ class Process {
   /// What the program said until now.
   [[nodiscard]] std::string said() const { return contents_of(output_); }
 
-  /// Waits until the program ends; ends it after a minute.
+  /// Waits until the program ends; ends it after five.
   Outcome wait()
   {
     int state = 0;
     for (int n = 0; waitpid(id_, &state, WNOHANG) == 0; ++n) {
-      if (n == 6000) {
+      if (n == 30000) {
         ADD_FAILURE() << "the program hangs; it said\n" << said();
         kill(id_, SIGKILL);
       }
