@@ -9,21 +9,9 @@
 #include <vector>
 
 #include "fluid/flow_solver.hpp"
+#include "support/faces.hpp"
 
 namespace luff::test {
-
-/// n cells over [from, to] with widths that vary smoothly by (1 + amplitude) : (1 - amplitude).
-inline std::vector<double> stretched_faces(double from, double to, int n, double amplitude)
-{
-  std::vector<double> x(n + 1);
-  for (int i = 0; i <= n; ++i) {
-    const double s = static_cast<double>(i) / n;
-    x[i] = from + (to - from) * (s + amplitude * std::sin(2.0 * std::numbers::pi * s) / (2.0 * std::numbers::pi));
-  }
-  x.front() = from;
-  x.back() = to;
-  return x;
-}
 
 inline fluid::Boundaries all_sides(fluid::SideKind kind, const fluid::VectorFunction& velocity)
 {
@@ -84,19 +72,18 @@ inline double pressure_error(const TestFlow& flow, const std::function<double(co
 {
   const auto p = flow.solver.state().p.view();
   const auto p_before = flow.solver.state().p_before.view();
-  double volume = 0.0;
-  double mean = 0.0;
-  double square = 0.0;
-  for_each_cell_in_order(flow.grid.owned(), [&](int i, int j, int k) {
-    const double V = flow.grid.volume(i, j, k);
-    const double e = 1.5 * p(i, j, k) - 0.5 * p_before(i, j, k) - exact(flow.grid.centre(i, j, k));
-    volume += V;
-    mean += V * e;
-    square += V * e * e;
-  });
-  volume = flow.grid.ranks().sum(volume);
-  mean = flow.grid.ranks().sum(mean) / volume;
-  return std::sqrt(std::max(0.0, flow.grid.ranks().sum(square) / volume - mean * mean));
+  const auto error = [&](int i, int j, int k) {
+    return 1.5 * p(i, j, k) - 0.5 * p_before(i, j, k) - exact(flow.grid.centre(i, j, k));
+  };
+  const auto integral = [&](auto value) {
+    double sum = 0.0;
+    for_each_cell_in_order(flow.grid.owned(),
+                           [&](int i, int j, int k) { sum += flow.grid.volume(i, j, k) * value(i, j, k); });
+    return flow.grid.ranks().sum(sum);
+  };
+  const double volume = integral([](int, int, int) { return 1.0; });
+  const double mean = integral(error) / volume;
+  return std::sqrt(integral([&](int i, int j, int k) { return std::pow(error(i, j, k) - mean, 2); }) / volume);
 }
 
 /// Order observed between two resolutions.

@@ -80,6 +80,34 @@ INSTANTIATE_TEST_SUITE_P(
                       SteadyPlate{"parallel", 0.0, 100.0, 40, {0.007, 0.013, 0.0}}),
     [](const auto& tested) { return "Case" + std::to_string(tested.index); });
 
+/// cases/plate/parallel.toml: Re = 100, L/h = 40 in a wide domain, up to t = 6.
+TEST(ParallelPlate, HasTheDragOfTripleDeckTheory)
+{
+  constexpr double theory = 0.3606;  // 2 (1.328 Re^-1/2 + 2.67 Re^-7/8)
+  const double h = 0.025;
+  const Slab slab{.x = {-6.0, 12.0, 189, grid::Refinement{-1.0, 2.0, h}},
+                  .y = {-6.0, 6.0, 142, grid::Refinement{-1.0, 1.0, h}},
+                  .depth = h,
+                  .stream = 1.0,
+                  .viscosity = 0.01};
+  const Plate plate{.degrees = 0.0, .centre = {0.007, 0.013, 0.0}, .divisions = 40};
+  const auto flow = make_flow(slab);
+  ControlVolume volume(*flow, {0.2, 0.0, 0.0}, 0.8);
+  const double dt = 0.012;
+  Vec3 traction;
+  for (int n = 0; n < 500; ++n) {
+    flow->step(dt, plate.at(0.0, slab.depth));
+    traction = coefficients(total_force(flow->solver.loads()), slab.depth);
+    flow->solver.accept();
+    volume.record(dt);
+  }
+  const double drag = coefficients(volume.force(), slab.depth)[0];
+  std::cout << "  drag by the momentum balance " << drag << ", by surface traction " << traction[0] << ", theory "
+            << theory << '\n';
+  EXPECT_NEAR(drag, theory, 0.02 * theory);
+  EXPECT_NEAR(traction[0], theory, 0.04 * theory);
+}
+
 /// Force on a plate at 70 degrees, Re = 100, h = L/25, over time.
 struct History {
   double dt = 0.0;
