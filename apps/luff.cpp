@@ -5,12 +5,15 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <filesystem>
 #include <iostream>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 #include <mpi.h>
 #include <omp.h>
+#include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "config/case.hpp"
@@ -50,16 +53,23 @@ luff::simulation::Threads choose_threads(int wanted)
   return {};
 }
 
-[[noreturn]] void plot(const std::string& run)
+/// Pictures of a run, by tools/plot.py; returns its exit status.
+int plot(const std::filesystem::path& run)
 {
   if (!std::filesystem::is_directory(run))
-    luff::fail_input("plot: {} is not a folder; give the folder of a run, such as runs/flag/001", run);
+    luff::fail_input("plot: {} is not a folder; give the folder of a run, such as runs/flag/001", run.string());
   const char* root = std::getenv("LUFF_ROOT");
   const std::string script = std::string(root != nullptr ? root : LUFF_SOURCE_DIR) + "/tools/plot.py";
-  MPI_Finalize();
-  execl("/usr/bin/python3", "python3", script.c_str(), run.c_str(), static_cast<char*>(nullptr));
-  std::perror("luff plot: /usr/bin/python3");
-  std::exit(1);
+  std::string folder = run.string();
+  std::string name = "python3";
+  std::string path = script;
+  char* arguments[] = {name.data(), path.data(), folder.data(), nullptr};
+  pid_t child = 0;
+  if (posix_spawn(&child, "/usr/bin/python3", nullptr, nullptr, arguments, environ) != 0)
+    return 1;
+  int status = 1;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
 /// Whether every rank gets here within seconds.  An error that all ranks met ends each of them by itself; one that some
@@ -151,8 +161,9 @@ int main(int argc, char** argv)
     status = guarded([&] {
       using namespace luff::simulation;
       if (run->parsed())
-        run_case(MPI_COMM_WORLD, file, overrides,
-                 {.out = out, .threads = available, .interrupted = [] { return interrupts > 0; }});
+        run_case(
+            MPI_COMM_WORLD, file, overrides,
+            {.out = out, .threads = available, .interrupted = [] { return interrupts > 0; }, .make_pictures = plot});
       else if (check->parsed())
         check_case(MPI_COMM_WORLD, file, overrides);
       else if (mesh->parsed())
@@ -161,7 +172,8 @@ int main(int argc, char** argv)
         luff::config::write_reference(std::cout,
                                       markdown ? luff::config::Format::Markdown : luff::config::Format::Text);
       else if (pictures->parsed())
-        plot(file);
+        if (rank == 0 && plot(file) != 0)
+          luff::fail_run("no pictures were made of '{}'", file);
     });
   } catch (const CLI::ParseError& error) {
     status = rank == 0 ? app.exit(error) : error.get_exit_code();

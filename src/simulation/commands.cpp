@@ -86,6 +86,16 @@ bool is_static(const config::Case& options)
   return options.structure.analysis == config::Analysis::Static;
 }
 
+void picture(const output::RunFolder& folder, spdlog::logger& log, const config::Case& options, const RunOptions& run)
+{
+  if (!options.output.plots || !run.make_pictures || !folder.writes())
+    return;
+  if (run.make_pictures(folder.path()) == 0)
+    log.info("pictures: {}", folder.file("plots").string());
+  else
+    log.warn("no pictures were made: luff plot {} says why", folder.path().string());
+}
+
 void say_groups(spdlog::logger& log, const config::Case& options, const Structure& structure)
 {
   for (const std::string& line : describe_groups(options, structure))
@@ -144,12 +154,14 @@ void run_case(MPI_Comm comm, const std::filesystem::path& file, const config::Ov
     const auto log = start_log(folder, options);
     say_groups(*log, options, *structure);
     run_static(folder, log, options, shells, anywhere(comm, run.interrupted));
+    picture(folder, *log, options, run);
   } else {
     const auto simulation = build_simulation(comm, options);
     const output::RunFolder folder = make_folder(comm, file, run);
     const auto log = start_log(folder, options);
     say_groups(*log, options, simulation->structure());
     march(folder, log, options, *simulation, anywhere(comm, run.interrupted));
+    picture(folder, *log, options, run);
   }
 }
 

@@ -21,6 +21,8 @@ struct RunOptions {
   std::filesystem::path out;  ///< empty: runs/<case>/<nnn>
   Threads threads;
   std::function<bool()> interrupted = [] { return false; };  ///< whether this rank was asked to end
+  /// Makes pictures of a run folder; returns 0 when it could.  Called when the case asks for plots.
+  std::function<int(const std::filesystem::path&)> make_pictures;
 };
 
 /// Runs a case and writes its folder.  Collective.  Throws InputError before anything is written, RunError when the run
