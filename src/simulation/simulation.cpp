@@ -12,17 +12,32 @@ void Simulation::run(const Observer& observe)
     const StepRates rates = surroundings_->step_rates();
     const TimeStep step = clock_.next(rates);       // t^n -> t^{n+1}
     Eigen::VectorXd d = structure_->predict(step);  // d^0
-    const coupling::FixedPointReport report = advance(step, d);
-    if (!acceptable(report)) {
-      reject(step, report);
+    const std::optional<coupling::FixedPointReport> outcome = try_step(step, d);
+    if (!outcome)
       continue;
-    }
     const int halvings = clock_.rejections();
     structure_->accept(step, d);  // may find the shell folded
     surroundings_->accept();
     clock_.accept(step);
-    wanted = observe({step, rates, report, surroundings_->report(), halvings});
+    wanted = observe({step, rates, *outcome, surroundings_->report(), halvings});
   }
+}
+
+/// The outcome of a step, or nothing when it must be repeated with half its length.
+std::optional<coupling::FixedPointReport> Simulation::try_step(const TimeStep& step, Eigen::VectorXd& d)
+{
+  try {
+    const coupling::FixedPointReport report = advance(step, d);
+    if (acceptable(report))
+      return report;
+    reject(step, report);
+  } catch (const RunError&) {  // of the shell or the flow, inside an iteration
+    if (policy_.scheme == Scheme::Loose || d.size() == 0 || clock_.rejections() >= policy_.halvings)
+      throw;
+    acceleration_->end_step(/*converged=*/false);
+    clock_.reject();
+  }
+  return std::nullopt;
 }
 
 /// Loose coupling takes one iteration for what it is; a value that is no number is never taken.

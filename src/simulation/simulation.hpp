@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "coupling/acceleration.hpp"
 #include "coupling/fixed_point.hpp"
@@ -57,6 +58,7 @@ class Simulation {
   [[nodiscard]] Profile& profile() { return profile_; }
 
  private:
+  [[nodiscard]] std::optional<coupling::FixedPointReport> try_step(const TimeStep& step, Eigen::VectorXd& d);
   [[nodiscard]] coupling::FixedPointReport advance(const TimeStep& step, Eigen::VectorXd& d);
   [[nodiscard]] bool acceptable(const coupling::FixedPointReport& report) const;
   void reject(const TimeStep& step, const coupling::FixedPointReport& report);
