@@ -24,6 +24,12 @@ class RunError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// An iteration inside a step did not converge: a shorter step may.
+class NonConvergence : public RunError {
+ public:
+  using RunError::RunError;
+};
+
 template <class... Args>
 [[noreturn]] void fail_input(fmt::format_string<Args...> text, Args&&... args)
 {
@@ -34,6 +40,12 @@ template <class... Args>
 [[noreturn]] void fail_run(fmt::format_string<Args...> text, Args&&... args)
 {
   throw RunError(fmt::format(text, std::forward<Args>(args)...));
+}
+
+template <class... Args>
+[[noreturn]] void fail_to_converge(fmt::format_string<Args...> text, Args&&... args)
+{
+  throw NonConvergence(fmt::format(text, std::forward<Args>(args)...));
 }
 
 /// A condition that only a programming error can break.

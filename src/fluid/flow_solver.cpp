@@ -273,7 +273,7 @@ poisson::Report FlowSolver::project_stage(double dt, double reduction)
   if (!std::isfinite(report.divergence))
     fail_as_no_number();
   if (!report.converged)
-    fail_run(
+    fail_to_converge(
         "step {}, t = {:.6g}: the pressure did not converge: max |div U| h/|U| = {:.2e} after {} iterations, worst "
         "in cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}); a smaller time.step, or a finer grid where sheets come "
         "close to each other, may help",

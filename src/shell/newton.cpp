@@ -21,7 +21,7 @@ namespace {
       ++worst;
   const int v = static_cast<int>(worst / 3);
   const Vec3 X = shell.reference().vertices[v], now = x.segment<3>(3 * v);
-  fail_run(
+  fail_to_converge(
       "{}: shell '{}' found no equilibrium in {} iterations: last increment {:.2e} of its size, at vertex {} "
       "(reference ({:.6g}, {:.6g}, {:.6g}), now ({:.6g}, {:.6g}, {:.6g})); take smaller steps, add damping or "
       "refine the mesh there",

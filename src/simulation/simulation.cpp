@@ -31,7 +31,7 @@ std::optional<coupling::FixedPointReport> Simulation::try_step(const TimeStep& s
     if (acceptable(report))
       return report;
     reject(step, report);
-  } catch (const RunError&) {  // of the shell or the flow, inside an iteration
+  } catch (const NonConvergence&) {  // of the shell or the pressure, inside a coupling iteration
     if (policy_.scheme == Scheme::Loose || d.size() == 0 || clock_.rejections() >= policy_.halvings)
       throw;
     acceleration_->end_step(/*converged=*/false);
