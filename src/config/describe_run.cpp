@@ -63,7 +63,7 @@ void describe(Schema& s, CouplingOptions& coupling)
         {.doc = "The factor of `constant`; the first factor of the other two.",
          .range = {.low = 0.0, .high = 1.0, .with_low = false}});
   s.key("tolerance", coupling.tolerance,
-        {.doc = "Largest un-relaxed residual of displacement and velocity, relative to the scales of the case.",
+        {.doc = "Largest un-relaxed residual of the displacement in a step, relative to the size of the largest shell.",
          .range = {.low = 0.0, .high = 1.0, .with_low = false, .with_high = false}});
   s.key("max_iterations", coupling.max_iterations,
         {.doc = "The run fails if more iterations are needed.", .range = at_least_one});
