@@ -284,11 +284,11 @@ Report MultigridSolver::project(const View3<double>& U, const View<double>& p, d
   double norm = std::isfinite(outflow.norm) ? load_right_hand_side(outflow) : outflow.norm;
   Report report;
   while (!meets(outflow, initial_norm, target) && report.iterations < target.max_iterations && std::isfinite(norm)) {
-    // Below round-off of the fluxes nothing can be gained, and conjugate gradients would only stir noise.
+    // Below round-off of the fluxes conjugate gradients would only stir noise.  But on stretched grids the round-off of
+    // the large cells can dominate the norm while a small one beside a sheet still holds something to correct: the last
+    // digit is always worth trying, and what it does not improve is taken back.
     const double round_off = 0.5 * std::numeric_limits<double>::epsilon() * outflow.flux_norm;
-    if (round_off >= 0.5 * norm)
-      break;
-    const double tolerance = std::max(round_off / norm, inner_tolerance(outflow, initial_norm, target));
+    const double tolerance = std::max(std::min(0.1, round_off / norm), inner_tolerance(outflow, initial_norm, target));
     const auto inner = inner_.solve(tolerance, target.max_iterations - report.iterations);
     report.iterations += inner.iterations;
     if (!inner.finite)
@@ -302,7 +302,7 @@ Report MultigridSolver::project(const View3<double>& U, const View<double>& p, d
     const Outflow corrected = add(1.0, to_net);
     const double corrected_norm = load_right_hand_side(corrected);
     ++report.refinements;
-    if (!(corrected_norm < 0.9 * norm)) {
+    if (!(corrected_norm < 0.9 * norm || corrected.divergence < 0.9 * outflow.divergence)) {
       outflow = add(-1.0, ignore);
       break;
     }

@@ -145,6 +145,9 @@ bool Recorder::record(const StepRecord& record)
   most_coupling_iterations_ = std::max(most_coupling_iterations_, record.coupling.iterations);
   pressure_iterations_ += record.flow.pressure_iterations;
   halvings_ += record.halvings;
+  if (record.halvings > 0)
+    log_->warn("step {}, t = {:.6g}: taken with half its length {} times: {}", record.step.index, record.step.t_new,
+               record.halvings, record.trouble);
   warn_about_limits(record);
   {
     const auto timer = simulation_.profile().time(Phase::Output);

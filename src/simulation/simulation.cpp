@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/simulation.hpp"
 
+#include <utility>
+
 #include "core/error.hpp"
 
 namespace luff::simulation {
@@ -16,10 +18,11 @@ void Simulation::run(const Observer& observe)
     if (!outcome)
       continue;
     const int halvings = clock_.rejections();
+    const std::string trouble = std::exchange(trouble_, {});
     structure_->accept(step, d);  // may find the shell folded
     surroundings_->accept();
     clock_.accept(step);
-    wanted = observe({step, rates, *outcome, surroundings_->report(), halvings});
+    wanted = observe({step, rates, *outcome, surroundings_->report(), halvings, trouble});
   }
 }
 
@@ -31,10 +34,11 @@ std::optional<coupling::FixedPointReport> Simulation::try_step(const TimeStep& s
     if (acceptable(report))
       return report;
     reject(step, report);
-  } catch (const NonConvergence&) {  // of the shell or the pressure, inside a coupling iteration
+  } catch (const NonConvergence& error) {  // of the shell or the pressure, inside a coupling iteration
     if (policy_.scheme == Scheme::Loose || d.size() == 0 || clock_.rejections() >= policy_.halvings)
       throw;
     acceleration_->end_step(/*converged=*/false);
+    trouble_ = error.what();
     clock_.reject();
   }
   return std::nullopt;
@@ -71,6 +75,7 @@ void Simulation::reject(const TimeStep& step, const coupling::FixedPointReport& 
         "\"aitken\" with a smaller coupling.relaxation, or more coupling.max_iterations may help",
         step.index, step.t_new, report.residual, report.iterations, policy_.criterion.tolerance,
         structure_->place_of(residual_), clock_.rejections());
+  trouble_ = fmt::format("the coupling's residual was {:.2e} after {} iterations", report.residual, report.iterations);
   clock_.reject();
 }
 

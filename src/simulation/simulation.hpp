@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "coupling/acceleration.hpp"
 #include "coupling/fixed_point.hpp"
@@ -29,6 +30,7 @@ struct StepRecord {
   coupling::FixedPointReport coupling;
   FlowReport flow;
   int halvings = 0;
+  std::string trouble;  ///< why it was halved last; empty when it was not
 };
 
 /// Marches flow and structure from t = 0 to the end, strongly coupled, Dirichlet-Neumann: the flow sees the motion of
@@ -70,6 +72,7 @@ class Simulation {
   CouplingPolicy policy_;
   Eigen::VectorXd residual_;  ///< S(F(d)) - d of the last coupling iteration
   Profile profile_;
+  std::string trouble_;
 };
 
 }  // namespace luff::simulation
