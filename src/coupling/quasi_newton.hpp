@@ -24,7 +24,7 @@ struct Difference {
 /// them. Measured over fifty steps of a flag on one, two and four ranks: without a bound the forces drifted apart by
 /// 1e-5, with 100 by 2e-6, with 50 by 4e-11; the lightest shells (mass ratio 0.01) take 11.8 iterations instead
 /// of 10.7.
-inline constexpr double largest_stretch = 50;
+inline constexpr double largest_stretch = 70;
 
 /// d_{k+1} = d~_k + W a  with  a = argmin |V a + r_k|,  V and W the differences of r and d~, newest first,
 /// by this step's iterations and then by those of the last `reused_steps` accepted steps.
