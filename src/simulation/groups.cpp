@@ -80,7 +80,7 @@ void describe_flow(const config::Case& options, const Structure& structure, std:
                   viscosity * dt * h.cwiseAbs2().cwiseInverse().sum(), fluid::diffusive_limit));
   const double steps = std::ceil(options.time.end / dt);
   // Measured on one core of 2023: benchmarks/README.md.
-  const double microseconds = options.shells.empty() ? 0.7 : 1.5;
+  const double microseconds = options.shells.empty() ? 0.3 : 0.8;
   lines.push_back(fmt::format("about {:.0f} steps; near {:.1f} minutes on one core", steps,
                               steps * spacing.cells * microseconds * 1e-6 / 60.0));
 }
