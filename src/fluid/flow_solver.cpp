@@ -16,11 +16,11 @@ using immersed::StageTime;
 namespace {
 
 /// Wray's coefficients [spalart_1991_spectral].  delta_s = gamma_s + zeta_s; c_s = time at the end of stage s.
-constexpr std::array<double, 3> gamma_{8.0 / 15.0, 5.0 / 12.0, 3.0 / 4.0};
-constexpr std::array<double, 3> zeta_{0.0, -17.0 / 60.0, -5.0 / 12.0};
-constexpr std::array<double, 3> delta_{8.0 / 15.0, 2.0 / 15.0, 1.0 / 3.0};
-constexpr std::array<double, 3> stage_end_{8.0 / 15.0, 2.0 / 3.0, 1.0};
-constexpr std::array<double, 3> stage_start_{0.0, 8.0 / 15.0, 2.0 / 3.0};
+constexpr std::array<double, 3> stage_gamma{8.0 / 15.0, 5.0 / 12.0, 3.0 / 4.0};
+constexpr std::array<double, 3> stage_zeta{0.0, -17.0 / 60.0, -5.0 / 12.0};
+constexpr std::array<double, 3> stage_delta{8.0 / 15.0, 2.0 / 15.0, 1.0 / 3.0};
+constexpr std::array<double, 3> stage_end{8.0 / 15.0, 2.0 / 3.0, 1.0};
+constexpr std::array<double, 3> stage_start{0.0, 8.0 / 15.0, 2.0 / 3.0};
 
 Vec3 constant_part(const VectorFunction& f)
 {
@@ -99,15 +99,15 @@ void FlowSolver::begin_step(const TimeStep& step, const immersed::SheetMotion& p
   advance_stage(0);
   freeze_pressure_push(0);
   bind_to_walls(0, /*current_velocity=*/false);
-  predict_with_old_pressure({stage_end_[0]});
-  recover({stage_end_[0]});
+  predict_with_old_pressure({stage_end[0]});
+  recover({stage_end[0]});
 
   advance_stage(1);
   freeze_pressure_push(1);
   bind_to_walls(1, /*current_velocity=*/false);
-  compute_fluxes({stage_end_[1]});
-  project_stage(stage_end_[1] * step.dt, options_.stage_reduction);
-  recover({stage_end_[1]});
+  compute_fluxes({stage_end[1]});
+  project_stage(stage_end[1] * step.dt, options_.stage_reduction);
+  recover({stage_end[1]});
 
   advance_stage(2);
   freeze_pressure_push(2);
@@ -154,7 +154,7 @@ void FlowSolver::advance_stage(int stage)
 {
   halo_.exchange(views(u_));
   boundary_.fill_velocity(views(u_), views(std::as_const(U_)));
-  const operators::StageWeights weights{step_.dt * gamma_[stage], step_.dt * zeta_[stage]};
+  const operators::StageWeights weights{step_.dt * stage_gamma[stage], step_.dt * stage_zeta[stage]};
   // Cut cells are computed first, from the increments and rates that the sweep over all cells overwrites.
   replace_rates_of_cut_cells(stage, weights);
   const Vec3 force = constant_part(options_.acceleration);
@@ -164,7 +164,7 @@ void FlowSolver::advance_stage(int stage)
                                 weights, views(rate_), views(increment_));
   }
   if (!options_.acceleration.constant)
-    add_varying_force(weights, step_.t_old + stage_start_[stage] * step_.dt);
+    add_varying_force(weights, step_.t_old + stage_start[stage] * step_.dt);
   for (std::size_t n = 0; n < links_.cells().size(); ++n)
     for (int d = 0; d < 3; ++d)
       rate_[d].view()(links_.cells()[n].cell) = terms_[n].explicit_rate[d];
@@ -180,8 +180,8 @@ void FlowSolver::replace_rates_of_cut_cells(int stage, const operators::StageWei
 #pragma omp parallel for schedule(static)
   for (std::size_t n = 0; n < cells.size(); ++n)
     terms_[n] = immersed::momentum_terms(grid_, links_, cells[n], views(std::as_const(u_)), options_.viscosity,
-                                         {stage_start_[stage]}, {stage_end_[stage]});
-  const double t = step_.t_old + stage_start_[stage] * step_.dt;
+                                         {stage_start[stage]}, {stage_end[stage]});
+  const double t = step_.t_old + stage_start[stage] * step_.dt;
   for (std::size_t n = 0; n < cells.size(); ++n) {
     const Index3& c = cells[n].cell;
     terms_[n].explicit_rate += options_.acceleration.value(grid_.centre(c[0], c[1], c[2]), t);
@@ -212,14 +212,14 @@ void FlowSolver::freeze_pressure_push(int stage)
   const std::vector<immersed::CutCell>& cells = links_.cells();
   pressure_push_.resize(cells.size());
   for (std::size_t n = 0; n < cells.size(); ++n)
-    pressure_push_[n] = stage_end_[stage] * step_.dt * immersed::pressure_gradient(grid_, cells[n], p_.view());
+    pressure_push_[n] = stage_end[stage] * step_.dt * immersed::pressure_gradient(grid_, cells[n], p_.view());
 }
 
 /// u* = [u^n + du + delta dt sum v_k u_b - c dt G p]/(1 + delta dt sum v_k) in cut cells, and du from it.
 void FlowSolver::bind_to_walls(int stage, bool current_velocity)
 {
   const auto timer = profile_.time(Phase::CutCells);
-  const double implicit = delta_[stage] * step_.dt;
+  const double implicit = stage_delta[stage] * step_.dt;
   const std::vector<immersed::CutCell>& cells = links_.cells();
 #pragma omp parallel for schedule(static)
   for (std::size_t n = 0; n < cells.size(); ++n) {
