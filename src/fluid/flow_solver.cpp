@@ -235,15 +235,27 @@ void FlowSolver::bind_to_walls(int stage, bool current_velocity)
   }
 }
 
+/// U^n + A <du> on all faces.
+void FlowSolver::interpolate_increment()
+{
+  halo_.exchange(views(increment_));
+  operators::interpolate_to_faces(grid_, views(std::as_const(state_.U)), views(std::as_const(increment_)), views(U_));
+}
+
+/// The fluxes that are prescribed, on the domain's sides and on cut faces.
+void FlowSolver::prescribe_fluxes(const StageTime& time)
+{
+  boundary_.evaluate_at(step_.t_old + time.fraction * step_.dt);
+  boundary_.set_fluxes(views(std::as_const(state_.u)), views(std::as_const(increment_)), views(U_));
+  links_.impose_fluxes(time, views(U_));
+}
+
 /// U* of a stage on all faces.
 void FlowSolver::compute_fluxes(const StageTime& time)
 {
   const auto timer = profile_.time(Phase::Momentum);
-  halo_.exchange(views(increment_));
-  operators::interpolate_to_faces(grid_, views(std::as_const(state_.U)), views(std::as_const(increment_)), views(U_));
-  boundary_.evaluate_at(step_.t_old + time.fraction * step_.dt);
-  boundary_.set_fluxes(views(std::as_const(state_.u)), views(std::as_const(increment_)), views(U_));
-  links_.impose_fluxes(time, views(U_));
+  interpolate_increment();
+  prescribe_fluxes(time);
 }
 
 /// Stage 1: U^1 = U* - c dt G p^n.  Wray's second weight of stage 1 is zero, so its O(dt^2) error does not matter.
@@ -251,13 +263,10 @@ void FlowSolver::predict_with_old_pressure(const StageTime& time)
 {
   const auto timer = profile_.time(Phase::Momentum);
   const double k = time.fraction * step_.dt;
-  halo_.exchange(views(increment_));
-  operators::interpolate_to_faces(grid_, views(std::as_const(state_.U)), views(std::as_const(increment_)), views(U_));
+  interpolate_increment();
   operators::subtract_pressure_gradient(grid_, p_.view(), k, views(U_));
-  boundary_.evaluate_at(step_.t_old + time.fraction * step_.dt);
-  boundary_.set_fluxes(views(std::as_const(state_.u)), views(std::as_const(increment_)), views(U_));
+  prescribe_fluxes(time);
   boundary_.subtract_outflow_gradient(p_.view(), k, views(U_));
-  links_.impose_fluxes(time, views(U_));
 }
 
 poisson::Report FlowSolver::project_stage(double dt, double reduction)

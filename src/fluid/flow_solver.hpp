@@ -101,6 +101,8 @@ class FlowSolver {
   void replace_rates_of_cut_cells(int stage, const operators::StageWeights& weights);
   void freeze_pressure_push(int stage);
   void bind_to_walls(int stage, bool current_velocity);
+  void interpolate_increment();
+  void prescribe_fluxes(const immersed::StageTime& time);
   void compute_fluxes(const immersed::StageTime& time);
   void predict_with_old_pressure(const immersed::StageTime& time);
   poisson::Report project_stage(double dt, double reduction);

@@ -10,6 +10,7 @@
 
 #include "output/summary.hpp"
 #include "simulation/flow_fields.hpp"
+#include "surface/selection.hpp"
 
 namespace luff::simulation {
 
@@ -109,12 +110,12 @@ void Recorder::open_probe(const config::ProbeOptions& options)
   if (options.shell) {
     for (const SheetRange& sheet : simulation_.structure().sheets())
       if (sheet.name == *options.shell) {
-        const auto& vertices = reference_mesh(sheet).vertices;
-        const auto nearest = std::min_element(vertices.begin(), vertices.end(), [&](const Vec3& a, const Vec3& b) {
-          return (a - options.point).squaredNorm() < (b - options.point).squaredNorm();
-        });
-        probe.vertex = sheet.first_vertex + static_cast<int>(nearest - vertices.begin());
-        probe.point = *nearest;
+        const surface::TriangleMesh& mesh = reference_mesh(sheet);
+        const int nearest =
+            surface::select_vertices(mesh, surface::PointWhere{options.point}, fmt::format("probe '{}'", options.name))
+                .front();
+        probe.vertex = sheet.first_vertex + nearest;
+        probe.point = mesh.vertices[nearest];
       }
     add("displacement", "length");
     add("velocity", "velocity");

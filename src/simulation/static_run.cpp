@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/static_run.hpp"
 
-#include <algorithm>
-
 #include <nlohmann/json.hpp>
 
 #include "output/csv.hpp"
@@ -10,6 +8,7 @@
 #include "output/summary.hpp"
 #include "shell/statics.hpp"
 #include "simulation/build.hpp"
+#include "surface/selection.hpp"
 #include "simulation/refusal.hpp"
 
 namespace luff::simulation {
@@ -26,14 +25,6 @@ struct StaticProbe {
   output::CsvWriter csv;
 };
 
-int nearest_vertex(const surface::TriangleMesh& mesh, const Vec3& point)
-{
-  const auto nearest = std::min_element(mesh.vertices.begin(), mesh.vertices.end(), [&](const Vec3& a, const Vec3& b) {
-    return (a - point).squaredNorm() < (b - point).squaredNorm();
-  });
-  return static_cast<int>(nearest - mesh.vertices.begin());
-}
-
 std::vector<StaticProbe> open_probes(const output::RunFolder& folder, const config::Case& options,
                                      const shell::Shell& shell)
 {
@@ -44,7 +35,10 @@ std::vector<StaticProbe> open_probes(const output::RunFolder& folder, const conf
   std::vector<StaticProbe> probes;
   for (const config::ProbeOptions& probe : options.output.probes)
     if (probe.shell == shell.name())
-      probes.push_back({probe.name, nearest_vertex(shell.reference(), probe.point),
+      probes.push_back({probe.name,
+                        surface::select_vertices(shell.reference(), surface::PointWhere{probe.point},
+                                                 fmt::format("probe '{}'", probe.name))
+                            .front(),
                         output::CsvWriter(folder, "probe-" + probe.name + ".csv", columns)});
   return probes;
 }

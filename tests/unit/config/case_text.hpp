@@ -13,41 +13,14 @@
 #include "config/case.hpp"
 #include "core/error.hpp"
 
+#include "support/program.hpp"
+
 namespace luff::config {
 
 inline const std::filesystem::path data_folder = std::filesystem::path(LUFF_SOURCE_DIR) / "tests/unit/config/data";
 
-inline std::string contents_of(const std::filesystem::path& file)
-{
-  std::ifstream in(file);
-  EXPECT_TRUE(in) << file;
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-/// A new folder, removed with all that is in it at the end of the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder()
-  {
-    std::string name = std::filesystem::temp_directory_path() / "luff-config-XXXXXX";
-    path_ = mkdtemp(name.data());
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-
-  std::filesystem::path write(const std::string& name, const std::string& text) const
-  {
-    std::ofstream(path_ / name) << text;
-    return path_ / name;
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using test::contents_of;
+using TemporaryFolder = test::WorkFolder;
 
 /// A valid case in 41 lines; the tests of errors count them.
 inline const std::string small_case = R"toml(title = "Small"

@@ -205,4 +205,10 @@ inline double largest(const grid::Grid& grid, const Field<double>& a)
 
 inline const Target tight{.relative = 0.0, .divergence = 5e-14, .speed = 1.0, .max_iterations = 100};
 
+struct NamedCase {
+  std::string name;
+  Problem problem;
+  Cuts cuts;
+};
+
 }  // namespace luff::poisson::test

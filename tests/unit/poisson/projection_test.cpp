@@ -12,12 +12,6 @@ namespace {
 
 using namespace test;
 
-struct NamedCase {
-  std::string name;
-  Problem problem;
-  Cuts cuts;
-};
-
 std::vector<NamedCase> all_cases()
 {
   return {
