@@ -30,6 +30,18 @@ GaussRule five_points()
   return {{-outer, -inner, 0, inner, outer}, {smaller, larger, 128.0 / 225, larger, smaller}};
 }
 
+struct SectionMaker {
+  double thickness;
+  int points;
+
+  Section operator()(const SaintVenantKirchhoff& law) const { return LinearSection(law.reference_moduli(), thickness); }
+  template <class Law>
+  Section operator()(const Law& law) const
+  {
+    return IntegratedSection<Law>(law, thickness, points);
+  }
+};
+
 }  // namespace
 
 const GaussRule& gauss_rule(int n_points)
@@ -39,6 +51,12 @@ const GaussRule& gauss_rule(int n_points)
   static const std::array<GaussRule, max_thickness_points> rules{
       {{{0}, {2}}, {{-two, two}, {1, 1}}, three_points(), four_points(), five_points()}};
   return rules[n_points - 1];
+}
+
+Section make_section(const Material& material, double thickness, int thickness_points)
+{
+  const int points = thickness_points == 0 ? recommended_thickness_points(material) : thickness_points;
+  return std::visit(SectionMaker{thickness, points}, material);
 }
 
 }  // namespace luff::shell

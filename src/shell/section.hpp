@@ -3,8 +3,9 @@
 #pragma once
 
 #include <array>
+#include <variant>
 
-#include "shell/material/response.hpp"
+#include "shell/material/material.hpp"
 
 namespace luff::shell {
 
@@ -28,6 +29,8 @@ struct SectionResponse {
 
 /// Section of a material with constant moduli C: membrane = h C, bending = h^3/12 C, exact.
 struct LinearSection {
+  static constexpr bool couples = false;  ///< stretch and bending: is D_1 ever different from zero?
+
   Mat3 membrane;
   Mat3 bending;
 
@@ -67,6 +70,8 @@ const GaussRule& gauss_rule(int n_points);
 template <class Law>
 class IntegratedSection {
  public:
+  static constexpr bool couples = true;
+
   /// \param n_points 1 .. max_thickness_points
   IntegratedSection(const Law& law, double thickness, int n_points) : law_(law), n_points_(n_points)
   {
@@ -133,5 +138,13 @@ class IntegratedSection {
   std::array<double, max_thickness_points> z_{};
   std::array<double, max_thickness_points> weight_{};
 };
+
+/// The section of any material; St-Venant-Kirchhoff's is linear.
+using Section =
+    std::variant<LinearSection, IntegratedSection<NeoHookean>, IntegratedSection<MayNewmanYin>,
+                 IntegratedSection<LeeSacks>, IntegratedSection<Fung>, IntegratedSection<HolzapfelGasserOgden>>;
+
+/// \param thickness_points 1 .. max_thickness_points; 0: recommended_thickness_points(material)
+Section make_section(const Material& material, double thickness, int thickness_points);
 
 }  // namespace luff::shell

@@ -12,8 +12,8 @@ namespace luff::shell {
 /// I1 = C11 + C22 + 1/J, where C = 1 + 2E, J = C11 C22 - C12^2 and C33 = 1/J keeps the volume. Written with
 /// d = J - 1 = 2(E11 + E22) + 4 E11 E22 - C12^2, so that no digits cancel at small strain. I1 is convex in E.
 ///
-/// Where C isn't positive definite there is no such sheet: I1 is infinite and its derivatives are not numbers, by which
-/// a trial step of a solver is known to be too long.
+/// Where C isn't positive definite there is no such sheet: I1 is infinite and its derivatives are not numbers, so that
+/// a solver sees energies and forces that aren't finite and takes a shorter step.
 class FirstInvariant {
  public:
   explicit FirstInvariant(const Vec3& E) : E_(E), d_(2 * (E[0] + E[1]) + 4 * E[0] * E[1] - E[2] * E[2]), J_(1 + d_)
