@@ -53,6 +53,10 @@ void describe(Schema& s, ShellOptions& shell)
   s.key("density", shell.density,
         {.doc = "Density of the material.", .unit = "kg/m^3", .range = positive, .required = true});
   s.table("material", shell.material, {.doc = "Law of stress and strain.", .required = true});
+  s.key("bending", shell.bending,
+        {.doc = "How curvature is found: `qavg`, slopes averaged over the edges, right on every mesh; `patch4`, the "
+                "quadratic of four triangles, and `hinge`, angles between triangles, are for comparison and right on "
+                "`diagonal` meshes only."});
   s.table("damping", shell.damping, {.doc = "Rayleigh damping."});
   s.key("gravity", shell.gravity, {.doc = "Acceleration of gravity acting on the shell.", .unit = "m/s^2"});
   s.list("support", shell.supports, {.doc = "Vertices that are held; edges without support are free."});

@@ -191,6 +191,8 @@ struct LoadOptions {
   bool operator==(const LoadOptions&) const = default;
 };
 
+enum class BendingElement { Qavg, Patch4, Hinge };
+
 /// [[shell]]
 struct ShellOptions {
   std::string name;
@@ -199,6 +201,7 @@ struct ShellOptions {
   double thickness = 0.0;
   double density = 0.0;
   MaterialOptions material;
+  BendingElement bending = BendingElement::Qavg;
   DampingOptions damping;
   Vec3 gravity = Vec3::Zero();
   std::vector<SupportOptions> supports;

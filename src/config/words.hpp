@@ -55,6 +55,11 @@ inline Words<MaterialModel> words(MaterialModel)
   return {{{MaterialModel::SaintVenantKirchhoff, "saint-venant-kirchhoff"}}, {"neo-hookean", "may-newman-yin"}};
 }
 
+inline Words<BendingElement> words(BendingElement)
+{
+  return {{{BendingElement::Qavg, "qavg"}, {BendingElement::Patch4, "patch4"}, {BendingElement::Hinge, "hinge"}}};
+}
+
 inline Words<SupportType> words(SupportType)
 {
   return {{{SupportType::Clamped, "clamped"}, {SupportType::Hinged, "hinged"}, {SupportType::Symmetry, "symmetry"}}};

@@ -66,9 +66,10 @@ Image compose(const Image& outer, const Image& inner)
 
 class Builder {
  public:
-  Builder(const TriangleMesh& mesh, const Topology& topology, const std::vector<MirrorEdge>& mirrors,
+  Builder(BendingKind kind, const TriangleMesh& mesh, const Topology& topology, const std::vector<MirrorEdge>& mirrors,
           const Mat3& moduli, std::string_view shell)
-      : mesh_(mesh),
+      : kind_(kind),
+        mesh_(mesh),
         topology_(topology),
         moduli_(moduli),
         shell_(shell),
@@ -84,7 +85,7 @@ class Builder {
     for (int t = 0; t < mesh_.n_triangles(); ++t)
       patches_.push_back(make_patch(t));
     for (int t = 0; t < mesh_.n_triangles(); ++t)
-      result_.stencils.push_back(make_stencil(t));
+      result_.stencils.push_back(kind_ == BendingKind::AveragedQuadratics ? averaged_stencil(t) : own_stencil(t));
     return std::move(result_);
   }
 
@@ -171,6 +172,8 @@ class Builder {
         reject_fold(t, j);
       M.row(j) << L(j, 1) * L(j, 2), L(j, 2) * L(j, 0), L(j, 0) * L(j, 1);
     }
+    if (kind_ == BendingKind::Hinge)
+      return hinge_coefficients(Y, p);
     const double conic = 1 / Eigen::JacobiSVD<Mat3>(M).singularValues()(2);
     if (conic > result_.worst_conic) {
       result_.worst_conic = conic;
@@ -227,10 +230,24 @@ class Builder {
     p.bubble = S.inverse() * H;
   }
 
+  // --- curvature from the patch alone --------------------------------------------------------------------------------
+
+  /// kappa = sum_k c_k (second derivatives of bubble k) . n
+  std::vector<StencilEntry> own_stencil(int t)
+  {
+    const Patch& p = patches_[t];
+    const Mat36 H = bubble_curvatures(p.g) * p.bubble;
+    std::vector<StencilEntry> stencil;
+    for (int i = 0; i < 6; ++i)
+      if (p.present[i])
+        stencil.push_back({p.vertex[i], p.image[i], H.col(i)});
+    return stencil;
+  }
+
   // --- averaging over the edges ------------------------------------------------------------------------------------
 
   /// kappa = sum_k 2/h_k [ (s_k + s'_k)/2 - (slope of the flat triangle) ] . n  m (x) m.
-  std::vector<StencilEntry> make_stencil(int t)
+  std::vector<StencilEntry> averaged_stencil(int t)
   {
     const Patch& p = patches_[t];
     std::vector<StencilEntry> stencil;
@@ -330,6 +347,7 @@ class Builder {
     EdgeNormals() { fill(Vec3::Zero()); }
   };
 
+  BendingKind kind_;
   const TriangleMesh& mesh_;
   const Topology& topology_;
   const Mat3& moduli_;
@@ -342,10 +360,10 @@ class Builder {
 
 }  // namespace
 
-BendingOperator averaged_quadratics(const TriangleMesh& mesh, const Topology& topology,
-                                    const std::vector<MirrorEdge>& mirrors, const Mat3& moduli, std::string_view shell)
+BendingOperator bending_operator(BendingKind kind, const TriangleMesh& mesh, const Topology& topology,
+                                 const std::vector<MirrorEdge>& mirrors, const Mat3& moduli, std::string_view shell)
 {
-  return Builder(mesh, topology, mirrors, moduli, shell).build();
+  return Builder(kind, mesh, topology, mirrors, moduli, shell).build();
 }
 
 }  // namespace luff::shell

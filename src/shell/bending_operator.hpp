@@ -29,18 +29,31 @@ struct BendingOperator {
   std::vector<Image> images;
   std::vector<std::vector<StencilEntry>> stencils;
   /// Largest q = 1/sigma_min of a patch's quadratic fit: 1 for equilateral patches, infinite for six vertices on a
-  /// conic.
+  /// conic; 0 for hinges, which fit nothing.
   double worst_conic = 0;
   int worst_triangle = -1;
   /// Triangles whose fit was replaced by hinge angles because q > 50.
   int n_replaced = 0;
 };
 
-/// QAVG: slopes at the mid-edges averaged between the quadratic fits of the two patches, then Gauss's theorem over the
-/// triangle (ours; docs/numerics/shell.md). Exact on quadratics and in equilibrium under constant moments.
-/// The bending `moduli` (shape only) weight the natural condition at free edges.
+/// How the curvature of a triangle is found (docs/numerics/shell.md).
+///
+/// | kind               | sees        | exact on quadratics | in equilibrium under constant moments |
+/// |--------------------|-------------|---------------------|---------------------------------------|
+/// | AveragedQuadratics | 12 vertices | yes                 | yes                                   |
+/// | PatchQuadratic     | 6 vertices  | yes                 | on regular meshes                     |
+/// | Hinge              | 6 vertices  | on regular meshes   | yes                                   |
+///
+/// Only the first converges to the right answer on every mesh.
+enum class BendingKind {
+  AveragedQuadratics,  ///< slopes at the mid-edges averaged between the quadratics of the two patches (ours)
+  PatchQuadratic,      ///< second derivatives of the patch's own quadratic [stolarski_2013_rotation]
+  Hinge                ///< angles between neighbours weighted by height [grinspun_2006_computing]
+};
+
+/// Curvature operator of every triangle. The bending `moduli` (shape only) weight the natural condition at free edges.
 /// \throws InputError naming `shell` and the triangle where the mesh folds back on itself or the fit is singular.
-BendingOperator averaged_quadratics(const surface::TriangleMesh& mesh, const surface::Topology& topology,
-                                    const std::vector<MirrorEdge>& mirrors, const Mat3& moduli, std::string_view shell);
+BendingOperator bending_operator(BendingKind kind, const surface::TriangleMesh& mesh, const surface::Topology& topology,
+                                 const std::vector<MirrorEdge>& mirrors, const Mat3& moduli, std::string_view shell);
 
 }  // namespace luff::shell

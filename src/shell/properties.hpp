@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/vec3.hpp"
+#include "shell/bending_operator.hpp"
 
 namespace luff::shell {
 
@@ -14,6 +15,7 @@ struct Properties {
   double density = 0;            ///< rho [M/L^3], >= 0; dynamics needs > 0
   double young = 0;              ///< E [M/(L T^2)], > 0
   double poisson = 0;            ///< nu [-], -1 < nu <= 0.5
+  BendingKind bending = BendingKind::AveragedQuadratics;
   double damping_mass = 0;       ///< f_m [1/T], >= 0
   double damping_stiffness = 0;  ///< f_k [T], >= 0
   Vec3 gravity = Vec3::Zero();   ///< acceleration [L/T^2]

@@ -46,7 +46,7 @@ Shell::Shell(surface::TriangleMesh reference, const Properties& properties, std:
   const double h = properties_.thickness;
   const Mat3 C = plane_stress_moduli(properties_);
   rigidity_ = {h * C, h * h * h / 12 * C};
-  make_elements(averaged_quadratics(reference_, topology_, held_and_mirrors.mirrors, C, name_));
+  make_elements(bending_operator(properties_.bending, reference_, topology_, held_and_mirrors.mirrors, C, name_));
   make_pattern();
   colour_elements();
   make_mass();

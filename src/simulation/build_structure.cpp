@@ -62,12 +62,26 @@ surface::Where where_of(const config::WhereOptions& where)
   return surface::PointWhere{where.point.value()};
 }
 
+shell::BendingKind bending_of(config::BendingElement bending)
+{
+  switch (bending) {
+    case config::BendingElement::Patch4:
+      return shell::BendingKind::PatchQuadratic;
+    case config::BendingElement::Hinge:
+      return shell::BendingKind::Hinge;
+    case config::BendingElement::Qavg:
+      break;
+  }
+  return shell::BendingKind::AveragedQuadratics;
+}
+
 shell::Properties properties_of(const config::ShellOptions& options)
 {
   return {.thickness = options.thickness,
           .density = options.density,
           .young = options.material.young,
           .poisson = options.material.poisson,
+          .bending = bending_of(options.bending),
           .damping_mass = options.damping.mass,
           .damping_stiffness = options.damping.stiffness,
           .gravity = options.gravity};

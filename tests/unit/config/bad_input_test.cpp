@@ -84,6 +84,8 @@ const BadInput values[] = {
     {"AWordIsMisspelt", "\"outflow\"", "\"outfow\"",
      "case.toml:15: boundary.x_max.type = \"outfow\" must be \"velocity\", \"wall\", \"slip\", \"symmetry\", "
      "\"periodic\" or \"outflow\" (did you mean \"outflow\"?)"},
+    {"ABendingIsUnknown", "thickness = ", "bending = \"qvag\"\nthickness = ",
+     "case.toml:23: shell.bending = \"qvag\" must be \"qavg\", \"patch4\" or \"hinge\" (did you mean \"qavg\"?)"},
     {"AWordIsANumber", "type = \"clamped\"", "type = 3",
      "case.toml:28: shell.support.type = 3 must be \"clamped\", \"hinged\" or \"symmetry\""},
     {"AListOfWordsHasAMisspeltOne", "every = 0.5", "every = 0.5, what = [\"velocity\", \"presure\"]",
