@@ -130,14 +130,22 @@ void describe(Schema& s, LoadOptions& load)
 {
   s.mark(load.mark);
   s.table("where", load.where,
-          {.doc = "The vertices loaded; `pressure` and `traction` act on triangles with all corners among them.",
+          {.doc = "The vertices loaded; `pressure` and `traction` act on triangles with all corners among them, "
+                  "`edge_force` and `edge_moment` on boundary edges with both ends among them.",
            .required = true});
-  s.exactly_one_of({"force", "pressure", "traction"});
+  s.exactly_one_of({"force", "pressure", "traction", "edge_force", "edge_moment"});
   s.key("force", load.force, {.doc = "Total force, shared by the vertices; keeps its direction.", .unit = "N"});
   s.key("pressure", load.pressure,
         {.doc = "Force per area along the normal (a x b of a rectangle); follows the surface.", .unit = "Pa"});
   s.key("traction", load.traction,
         {.doc = "Force per area of the reference configuration; keeps its direction.", .unit = "Pa"});
+  s.key("edge_force", load.edge_force,
+        {.doc = "Force per length of boundary edges of the reference configuration; keeps its direction.",
+         .unit = "N/m"});
+  s.key("edge_moment", load.edge_moment,
+        {.doc = "Moment per length of boundary edges about the direction that each has in the reference "
+                "configuration; raises the edge towards the normal and turns with it.",
+         .unit = "N"});
 }
 
 void describe(Schema& s, WhereOptions& where)

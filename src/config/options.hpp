@@ -180,12 +180,14 @@ struct SupportOptions {
   bool operator==(const SupportOptions&) const = default;
 };
 
-/// [[shell.load]]: exactly one of `force`, `pressure` and `traction`.
+/// [[shell.load]]: exactly one of the five.
 struct LoadOptions {
   WhereOptions where;
-  std::optional<VectorExpression> force;     ///< total, shared by the vertices
-  std::optional<Expression> pressure;        ///< follower, per current area, along the normal
-  std::optional<VectorExpression> traction;  ///< dead, per reference area
+  std::optional<VectorExpression> force;       ///< total, shared by the vertices
+  std::optional<Expression> pressure;          ///< follower, per current area, along the normal
+  std::optional<VectorExpression> traction;    ///< dead, per reference area
+  std::optional<VectorExpression> edge_force;  ///< dead, per reference length of boundary edges
+  std::optional<Expression> edge_moment;       ///< follower, per reference length of boundary edges
   Mark mark = {};
 
   bool operator==(const LoadOptions&) const = default;

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.hpp"
+#include "shell/edges.hpp"
 
 namespace luff::shell {
 
@@ -18,30 +19,6 @@ Mat3 cross_matrix(const Vec3& d)
   Mat3 W;
   W << 0, -d.z(), d.y(), d.z(), 0, -d.x(), -d.y(), d.x(), 0;
   return W;
-}
-
-/// Part of a force that each vertex takes: half of every boundary edge between two of them, or equal parts.
-std::vector<double> shares(const Shell& shell, const std::vector<int>& vertices)
-{
-  const auto& mesh = shell.reference();
-  std::vector<double> length(mesh.vertices.size(), 0);
-  std::vector<char> selected(mesh.vertices.size(), 0);
-  for (const int v : vertices)
-    selected[v] = 1;
-  double total = 0;
-  for (const auto side : shell.topology().boundary) {
-    const auto [a, b] = surface::edge_vertices(mesh.triangles[side.triangle], side.edge);
-    if (!selected[a] || !selected[b])
-      continue;
-    const double l = (mesh.vertices[b] - mesh.vertices[a]).norm();
-    length[a] += l / 2;
-    length[b] += l / 2;
-    total += l;
-  }
-  std::vector<double> result;
-  for (const int v : vertices)
-    result.push_back(total > 0 ? length[v] / total : 1.0 / static_cast<double>(vertices.size()));
-  return result;
 }
 
 }  // namespace
@@ -64,26 +41,38 @@ Loads::Loads(const Shell& shell, std::vector<Load> loads) : shell_(shell), loads
 {
   for (Load& load : loads_) {
     shares_.emplace_back();
-    if (auto* force = std::get_if<PointForce>(&load)) {
-      check(*force);
-      shares_.back() = shares(shell_, force->vertices);
+    if (const auto* force = std::get_if<PointForce>(&load)) {
+      check_vertices(force->vertices, "force");
+      shares_.back() = shares(shell_.reference(), shell_.topology(), force->vertices);
     } else if (auto* traction = std::get_if<Traction>(&load)) {
       check_triangles(traction->triangles);
+    } else if (auto* pressure = std::get_if<Pressure>(&load)) {
+      check_triangles(pressure->triangles);
+    } else if (const auto* edge_force = std::get_if<EdgeForce>(&load)) {
+      check_edges(edge_force->vertices, "edge force");
     } else {
-      check_triangles(std::get<Pressure>(load).triangles);
+      check_edges(std::get<EdgeMoment>(load).vertices, "edge moment");
     }
   }
   const Vec3 gravity = shell_.properties().gravity;
   weight_ = shell_.mass_times(gravity.replicate(shell_.n_vertices(), 1));
 }
 
-void Loads::check(const PointForce& load) const
+void Loads::check_vertices(const std::vector<int>& vertices, std::string_view kind) const
 {
-  if (load.vertices.empty())
-    fail_input("shell '{}': a force selects no vertex; widen its 'where'", shell_.name());
-  for (const int v : load.vertices)
+  if (vertices.empty())
+    fail_input("shell '{}': a {} selects no vertex; widen its 'where'", shell_.name(), kind);
+  for (const int v : vertices)
     if (v < 0 || v >= shell_.n_vertices())
-      fail_input("shell '{}': a force acts on vertex {}, not in 0..{}", shell_.name(), v, shell_.n_vertices() - 1);
+      fail_input("shell '{}': a {} acts on vertex {}, not in 0..{}", shell_.name(), kind, v, shell_.n_vertices() - 1);
+}
+
+void Loads::check_edges(const std::vector<int>& vertices, std::string_view kind) const
+{
+  check_vertices(vertices, kind);
+  if (boundary_edges(shell_.reference(), shell_.topology(), vertices).empty())
+    fail_input("shell '{}': an {} selects no boundary edge; widen its 'where' to both ends of one", shell_.name(),
+               kind);
 }
 
 void Loads::check_triangles(std::vector<int>& triangles) const
@@ -107,8 +96,12 @@ LoadsAtTime Loads::at(double t) const
       add(*point, shares_[l], t, now);
     else if (const auto* traction = std::get_if<Traction>(&loads_[l]))
       add(*traction, t, now);
+    else if (const auto* pressure = std::get_if<Pressure>(&loads_[l]))
+      add(*pressure, t, now);
+    else if (const auto* edge_force = std::get_if<EdgeForce>(&loads_[l]))
+      add(*edge_force, t, now);
     else
-      add(std::get<Pressure>(loads_[l]), t, now);
+      add(std::get<EdgeMoment>(loads_[l]), t, now);
   }
   return now;
 }
@@ -138,7 +131,32 @@ void Loads::add(const Pressure& load, double t, LoadsAtTime& now) const
     now.pressed_.push_back({mesh.triangles[e], load.pressure(surface::centroid(mesh, e), t)});
 }
 
-/// f_i = p/6 (x2 - x1) x (x3 - x1) at every corner, on top of the dead forces.
+/// f_a = l/6 (2 q_a + q_b) at the ends a, b of each edge
+void Loads::add(const EdgeForce& load, double t, LoadsAtTime& now) const
+{
+  const auto& mesh = shell_.reference();
+  for (const surface::TriangleEdge side : boundary_edges(mesh, shell_.topology(), load.vertices)) {
+    const auto [a, b] = surface::edge_vertices(mesh.triangles[side.triangle], side.edge);
+    const Vec3 &A = mesh.vertices[a], &B = mesh.vertices[b];
+    const double sixth = (B - A).norm() / 6;
+    const Vec3 at_a = load.force(A, t), at_b = load.force(B, t);
+    now.dead_.segment<3>(3 * a) += sixth * (2 * at_a + at_b);
+    now.dead_.segment<3>(3 * b) += sixth * (2 * at_b + at_a);
+  }
+}
+
+void Loads::add(const EdgeMoment& load, double t, LoadsAtTime& now) const
+{
+  const auto& mesh = shell_.reference();
+  for (const surface::TriangleEdge side : boundary_edges(mesh, shell_.topology(), load.vertices)) {
+    const auto [a, b] = surface::edge_vertices(mesh.triangles[side.triangle], side.edge);
+    const EdgeTurn turn(mesh, side);
+    now.turned_.push_back({turn, turn.length() * load.moment(0.5 * (mesh.vertices[a] + mesh.vertices[b]), t)});
+  }
+}
+
+/// f_i = p/6 (x2 - x1) x (x3 - x1) at every corner for a pressure, f_i = M l d theta/d x_i for an edge's
+/// moment, on top of the dead forces.
 Eigen::VectorXd LoadsAtTime::force(const Eigen::VectorXd& x) const
 {
   Eigen::VectorXd f = dead_;
@@ -149,10 +167,16 @@ Eigen::VectorXd LoadsAtTime::force(const Eigen::VectorXd& x) const
     for (const int v : triangle.corner)
       f.segment<3>(3 * v) += triangle.pressure / 6 * twice_area;
   }
+  for (const auto& [turn, moment] : turned_) {
+    const Mat3 gradient = turn.gradient(x);
+    for (int i = 0; i < 3; ++i)
+      f.segment<3>(3 * turn.corner()[i]) += moment * gradient.col(i);
+  }
   return f;
 }
 
-/// d f_i / d x_j = p/6 [d_j]x for every corner i, d_j the edge opposite corner j; half of it and of its transpose.
+/// Pressure: d f_i / d x_j = p/6 [d_j]x for every corner i, d_j the edge opposite corner j; half of it and of its
+/// transpose. Moment: all of it.
 void LoadsAtTime::subtract_stiffness(const Eigen::VectorXd& x, double factor, BlockMatrix& K) const
 {
   for (const auto& [corner, pressure] : pressed_) {
@@ -163,6 +187,13 @@ void LoadsAtTime::subtract_stiffness(const Eigen::VectorXd& x, double factor, Bl
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         K.block(K.pattern().slot(corner[i], corner[j])) -= 0.5 * (derivative[j] + derivative[i].transpose());
+  }
+  for (const auto& [turn, moment] : turned_) {
+    const Mat3 curvature = turn.curvature(x);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        K.block(K.pattern().slot(turn.corner()[i], turn.corner()[j])) -=
+            factor * moment * turn.weight(i, j) * curvature;
   }
 }
 

@@ -5,12 +5,14 @@
 #include <array>
 #include <functional>
 #include <span>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/vec3.hpp"
+#include "shell/edge_turn.hpp"
 #include "shell/shell.hpp"
 
 namespace luff::shell {
@@ -40,7 +42,21 @@ struct Pressure {
   ScalarFunction pressure;
 };
 
-using Load = std::variant<PointForce, Traction, Pressure>;
+/// A dead force per length of the reference [M/T^2] on the boundary edges between the vertices, linear along each.
+struct EdgeForce {
+  std::vector<int> vertices;
+  VectorFunction force;
+};
+
+/// A moment per length of the reference [M L/T^2] on the boundary edges between the vertices, about the direction that
+/// each has in the reference; positive where it raises the edge towards the normal. It follows the edge: its work is
+/// moment x length x turn (EdgeTurn), over any number of turns.
+struct EdgeMoment {
+  std::vector<int> vertices;
+  ScalarFunction moment;
+};
+
+using Load = std::variant<PointForce, Traction, Pressure, EdgeForce, EdgeMoment>;
 
 /// Triangles with all corners among the vertices.
 std::vector<int> triangles_of(const surface::TriangleMesh& mesh, std::span<const int> vertices);
@@ -60,14 +76,20 @@ class LoadsAtTime {
     std::array<int, 3> corner;
     double pressure;
   };
+  struct Turned {
+    EdgeTurn turn;
+    double moment;  ///< of the whole edge
+  };
   Eigen::VectorXd dead_;
   std::vector<Pressed> pressed_;
+  std::vector<Turned> turned_;
 };
 
 /// Loads and gravity of a shell.
 class Loads {
  public:
-  /// Keeps a reference to the shell. \throws InputError for numbers out of range or an empty PointForce.
+  /// Keeps a reference to the shell. \throws InputError for numbers out of range, a PointForce without vertex, an
+  /// EdgeForce or EdgeMoment without edge.
   Loads(const Shell& shell, std::vector<Load> loads);
 
   LoadsAtTime at(double t) const;
@@ -76,7 +98,10 @@ class Loads {
   void add(const PointForce& load, const std::vector<double>& shares, double t, LoadsAtTime& now) const;
   void add(const Traction& load, double t, LoadsAtTime& now) const;
   void add(const Pressure& load, double t, LoadsAtTime& now) const;
-  void check(const PointForce& load) const;
+  void add(const EdgeForce& load, double t, LoadsAtTime& now) const;
+  void add(const EdgeMoment& load, double t, LoadsAtTime& now) const;
+  void check_vertices(const std::vector<int>& vertices, std::string_view kind) const;
+  void check_edges(const std::vector<int>& vertices, std::string_view kind) const;
   void check_triangles(std::vector<int>& triangles) const;
 
   const Shell& shell_;

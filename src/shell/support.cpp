@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.hpp"
+#include "shell/edges.hpp"
 
 namespace luff::shell {
 
@@ -44,17 +45,6 @@ std::vector<char> selected(const Context& c)
     flags[v] = 1;
   }
   return flags;
-}
-
-std::vector<TriangleEdge> boundary_edges(const Context& c, const std::vector<char>& flags)
-{
-  std::vector<TriangleEdge> edges;
-  for (const TriangleEdge side : c.topology.boundary) {
-    const auto [a, b] = surface::edge_vertices(c.mesh.triangles[side.triangle], side.edge);
-    if (flags[a] && flags[b])
-      edges.push_back(side);
-  }
-  return edges;
 }
 
 bool contains_triangle(const TriangleMesh& mesh, const std::vector<char>& flags)
@@ -113,7 +103,7 @@ class Builder {
   void apply(const Context& c)
   {
     const std::vector<char> flags = selected(c);
-    const std::vector<TriangleEdge> edges = boundary_edges(c, flags);
+    const std::vector<TriangleEdge> edges = boundary_edges(c.mesh, c.topology, c.support.vertices);
     switch (c.support.kind) {
       case SupportKind::Clamped:
         if (edges.empty() && !contains_triangle(c.mesh, flags))

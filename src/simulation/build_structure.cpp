@@ -121,6 +121,11 @@ shell::Load load_of(const config::LoadOptions& options, const surface::TriangleM
     // The file gives the total force; a PointForce shares what its function returns among the vertices.
     return shell::PointForce{vertices, [f = *options.force](const Vec3& x, double t) { return f.evaluate(x, t); }};
   }
+  if (options.edge_force)
+    return shell::EdgeForce{vertices, [q = *options.edge_force](const Vec3& x, double t) { return q.evaluate(x, t); }};
+  if (options.edge_moment)
+    return shell::EdgeMoment{vertices,
+                             [m = *options.edge_moment](const Vec3& x, double t) { return m.evaluate(x, t); }};
   const std::vector<int> triangles = shell::triangles_of(mesh, vertices);
   if (triangles.empty())
     fail_input("{}: no triangle lies wholly in the selection; select more, or give a force", what);

@@ -167,7 +167,8 @@ const BadInput rules[] = {
     {"ASupportSaysNothing", "type = \"clamped\"\n", "",
      "case.toml:26: shell.support must have exactly one of type, fixed; it has none"},
     {"ALoadIsOfTwoKinds", "force = [0, \"40*t\", 0]", "force = [0, \"40*t\", 0]\npressure = 1",
-     "case.toml:32: shell.load must have exactly one of force, pressure, traction; it has force, pressure"},
+     "case.toml:32: shell.load must have exactly one of force, pressure, traction, edge_force, edge_moment; it has "
+     "force, pressure"},
     {"ABoxHasItsCornersSwapped", "{ point = [1, 0, 0] }", "{ box = [[1, 1, 1], [0, 0, 0]] }",
      "case.toml:30: shell.load.where.box must be [lowest corner, highest corner]"},
     {"AnEdgeIsAPoint", "[0, 0, 0.5]] }", "[0, 0, -0.5]] }",

@@ -63,6 +63,8 @@ TEST(ACaseFile, SetsShellsAndBodies)
   EXPECT_EQ(flag.loads[1].pressure->evaluate(Vec3::Zero(), 1.0), 2.0);
   EXPECT_EQ(flag.loads[1].where.plane->normal, Vec3(0.0, 1.0, 0.0));
   EXPECT_EQ(c.shells[1].bending, BendingElement::Qavg);
+  EXPECT_EQ(flag.loads[3].edge_force->evaluate(Vec3(0, 0, 3), 0.0), Vec3(0.0, 3.0, 0.0));
+  EXPECT_EQ(flag.loads[4].edge_moment->evaluate(Vec3::Zero(), 2.0), 4.0);
   EXPECT_EQ(c.shells[1].mesh.file, data_folder / "leaflet.stl");
   const MotionOptions& motion = c.bodies.at(0).motion;
   EXPECT_EQ(motion.type, MotionType::Prescribed);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "shell/edge_turn.hpp"
+#include "shell/edges.hpp"
 #include "shell/loads.hpp"
 #include "support/shells.hpp"
 
@@ -83,6 +85,82 @@ TEST(Loads, PressureStiffnessOfAClosedSurfaceIsTheDerivativeOfItsForce)
   EXPECT_LT(total(loads.at(0).force(x)).norm(), 1e-12 * loads.at(0).force(x).norm());
 }
 
+// q = (1 + y, 2, 3 y) along an edge of length 1.1, in vertices at irregular distances.
+TEST(Loads, LinearForcePerLengthGivesItsExactResultantAndMoment)
+{
+  surface::TriangleMesh mesh = test::sheet(1.2, 1.1, 5, 4);
+  mesh.vertices[1].y() += 0.1;
+  const std::vector<int> edge = test::vertices_where(mesh, [](auto& X) { return X.x() == 0; });
+  Properties weightless = properties;
+  weightless.gravity.setZero();
+  const Shell shell(mesh, weightless, {});
+  const Loads loads(shell,
+                    {EdgeForce{edge, [](const Vec3& X, double t) { return Vec3(t * Vec3(1 + X.y(), 2, 3 * X.y())); }}});
+  const Eigen::VectorXd f = loads.at(2).force(shell.reference_positions());
+  const double l = 1.1;
+  EXPECT_LT((total(f) - 2 * Vec3(l + l * l / 2, 2 * l, 3 * l * l / 2)).norm(), 1e-14);
+  double moment = 0;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    moment += mesh.vertices[v].y() * f[3 * v + 2];
+  EXPECT_NEAR(moment, 2 * l * l * l, 1e-14);
+}
+
+// Turned by 150 degrees and stretched, where atan2 is far from linear.
+TEST(Loads, EdgeMomentHasTheTurnForPotentialAndItsExactStiffness)
+{
+  const surface::TriangleMesh mesh = test::curved_sheet();
+  const std::vector<int> edge = test::vertices_where(mesh, [](auto& X) { return X.y() == 0; });
+  Properties weightless = properties;
+  weightless.gravity.setZero();
+  const Shell shell(mesh, weightless, {});
+  const auto moment = [](const Vec3& X, double t) { return t * (2 + X.x()); };
+  const LoadsAtTime loads = Loads(shell, {EdgeMoment{edge, moment}}).at(3);
+  Eigen::VectorXd x = shell.reference_positions() + 0.03 * test::random_vector(3 * shell.n_vertices(), 1);
+  const Mat3 turn = Eigen::AngleAxisd(150 * M_PI / 180, Vec3::UnitX()).toRotationMatrix();
+  for (int v = 0; v < shell.n_vertices(); ++v)
+    x.segment<3>(3 * v) = turn * Vec3(x.segment<3>(3 * v));
+  const auto potential = [&](const Eigen::VectorXd& y) {
+    double sum = 0;
+    for (const surface::TriangleEdge side : boundary_edges(mesh, shell.topology(), edge)) {
+      const EdgeTurn angle(mesh, side);
+      const auto [a, b] = surface::edge_vertices(mesh.triangles[side.triangle], side.edge);
+      sum += angle.length() * moment(0.5 * (mesh.vertices[a] + mesh.vertices[b]), 3) * angle.angle(y);
+    }
+    return sum;
+  };
+  const Eigen::VectorXd d = test::random_vector(x.size(), 2);
+  const double step = 2e-6;
+  const Eigen::VectorXd f = loads.force(x);
+  EXPECT_NEAR((potential(x + step * d) - potential(x - step * d)) / (2 * step), f.dot(d), 1e-9 * f.norm() * d.norm());
+  BlockMatrix K(shell.pattern());
+  loads.subtract_stiffness(x, 1, K);
+  const Eigen::VectorXd slope = (loads.force(x + step * d) - loads.force(x - step * d)) / (2 * step);
+  EXPECT_LT((slope + K * d).norm(), 1e-9 * slope.norm());
+  EXPECT_LT(total(f).norm(), 1e-14 * f.norm());
+  EXPECT_EQ((K.dense() - K.dense().transpose()).norm(), 0);
+}
+
+// On a sheet with free edges the derivative of the pressure's force isn't symmetric; its symmetric part is what is
+// kept.
+TEST(Loads, PressureStiffnessIsTheSymmetricPartOfTheDerivative)
+{
+  const surface::TriangleMesh mesh = test::curved_sheet();
+  const Shell shell(mesh, properties, {});
+  const LoadsAtTime loads =
+      Loads(shell, {Pressure{{}, [](const Vec3& X, double t) { return t * (2.5 + X.x()); }}}).at(2);
+  const Eigen::VectorXd x = shell.reference_positions() + 0.05 * test::random_vector(3 * shell.n_vertices(), 1);
+  Eigen::MatrixXd derivative(x.size(), x.size());
+  const double step = 1e-3;  // the force is quadratic in the positions: central differences are exact
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Eigen::VectorXd d = step * Eigen::VectorXd::Unit(x.size(), i);
+    derivative.col(i) = (loads.force(x + d) - loads.force(x - d)) / (2 * step);
+  }
+  BlockMatrix K(shell.pattern());
+  loads.subtract_stiffness(x, 1, K);
+  EXPECT_LT((K.dense() + 0.5 * (derivative + derivative.transpose())).norm(), 1e-11 * derivative.norm());
+  EXPECT_GT((derivative - derivative.transpose()).norm(), 0.1 * derivative.norm());
+}
+
 TEST(Loads, NumbersOutOfRangeAreRefused)
 {
   const Shell shell(test::sheet(1, 1, 2, 2), properties, {}, "flag");
@@ -90,6 +168,8 @@ TEST(Loads, NumbersOutOfRangeAreRefused)
   EXPECT_THROW(Loads(shell, {PointForce{{}, up}}), InputError);
   EXPECT_THROW(Loads(shell, {PointForce{{9}, up}}), InputError);
   EXPECT_THROW(Loads(shell, {Traction{{8}, up}}), InputError);
+  EXPECT_THROW(Loads(shell, {EdgeForce{{4}, up}}), InputError);
+  EXPECT_THROW(Loads(shell, {EdgeMoment{{4, 5}, [](const Vec3&, double) { return 1.0; }}}), InputError);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large deflections of a cantilever under an end shear force [sze_2004_popular], section 3.1.
+// Large deflections of a cantilever under an end shear force and an end moment [sze_2004_popular], 3.1 and 3.2.
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -111,6 +111,33 @@ TEST(Cantilever, NewtonConvergesQuadratically)
   const double order = std::log(e[end - 1] / e[end - 2]) / std::log(e[end - 2] / e[end - 3]);
   std::printf("; order %.2f\n", order);
   EXPECT_GT(order, 1.8);
+}
+
+// Strip of length 12 under the end moment that rolls it up to a full circle [sze_2004_popular], section 3.2. A beam
+// without shear has -u = 12 (1 - sin t/t), w = 12 (1 - cos t)/t at t = 2 pi x load factor.
+TEST(Cantilever, EndMomentRollsItUpToACircle)
+{
+  const surface::TriangleMesh mesh = test::sheet(12, 1, 64, 6);
+  const std::vector<int> tip = test::vertices_where(mesh, [](auto& X) { return X.x() == 12; });
+  const Shell shell(
+      mesh, beam,
+      {{.kind = SupportKind::Clamped, .vertices = test::vertices_where(mesh, [](auto& X) { return X.x() == 0; })}});
+  const std::vector<Load> moment{EdgeMoment{tip, [](const Vec3&, double) { return 50 * M_PI / 3; }}};
+  double along = 0, across = 0, largest = 0;  // errors at the end, of both on the way
+  solve_static(shell, moment, {.steps = 20}, [&](const StaticStep& step) {
+    Vec3 u = Vec3::Zero();
+    for (const int v : tip)
+      u += (step.positions.segment<3>(3 * v) - mesh.vertices[v]) / static_cast<double>(tip.size());
+    const double t = 2 * M_PI * step.load_factor;
+    along = (-u.x() - 12 * (1 - std::sin(t) / t)) / 12;
+    across = (u.z() - 12 * (1 - std::cos(t)) / t) / 12;
+    largest = std::max({largest, std::abs(along), std::abs(across)});
+  });
+  std::printf("  full circle: %+.2f %% along, %+.2f %% across; largest on the way %.2f %%\n", 100 * along, 100 * across,
+              100 * largest);
+  EXPECT_LT(std::abs(along), 0.006);
+  EXPECT_LT(std::abs(across), 0.006);
+  EXPECT_LT(largest, 0.006);
 }
 
 TEST(Cantilever, ConjugateGradientsFindTheSameEquilibrium)
