@@ -34,6 +34,11 @@ void describe(Schema& s, StructureOptions& structure)
          [&] { s.key("steps", structure.steps, {.doc = "Equal load steps.", .range = at_least_one}); });
   s.key("solver", structure.solver,
         {.doc = "Linear solver in Newton's method: sparse Cholesky, or conjugate gradients."});
+  s.key("fold_limit", structure.fold_limit,
+        {.doc = "The run ends where a shell folds by more than this over an edge of its mesh. The element resists a "
+                "fold most at 90 degrees and less beyond: above 75, refine the mesh, or know what you do.",
+         .unit = "degrees",
+         .range = {.low = 0.0, .high = 180.0, .with_low = false}});
 }
 
 void describe(Schema& s, PressureOptions& pressure)

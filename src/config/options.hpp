@@ -252,6 +252,7 @@ struct StructureOptions {
   Analysis analysis = Analysis::Dynamic;
   int steps = 20;  ///< equal load steps of a static analysis
   StructureSolver solver = StructureSolver::Direct;
+  double fold_limit = 75.0;  ///< degrees
 
   bool operator==(const StructureOptions&) const = default;
 };

@@ -13,12 +13,13 @@ Dynamics::Dynamics(const Shell& shell, const std::vector<Load>& loads, DynamicsO
     : shell_(shell),
       loads_(shell, loads),
       options_(options),
-      material_stiffness_(shell.pattern()),
+      damping_(shell.pattern()),
       tangent_(shell, options.linear_solver)
 {
-  if (!(shell_.properties().density > 0))
-    fail_input("shell '{}': density = {} must be greater than 0 to move in time", shell_.name(),
-               shell_.properties().density);
+  for (const PieceRange& piece : shell_.pieces())
+    if (!(piece.properties.density > 0))
+      fail_input("shell '{}': density = {} must be greater than 0 to move in time", piece.name,
+                 piece.properties.density);
   state_.x = shell_.reference_positions();
   state_.v = v0.size() > 0 ? v0 : Eigen::VectorXd::Zero(state_.x.size());
   ensure(state_.v.size() == state_.x.size(), "an initial velocity has three numbers per vertex");
@@ -67,22 +68,18 @@ Eigen::VectorXd Dynamics::consistent_acceleration() const
 
 void Dynamics::freeze_damping(const Eigen::VectorXd& x)
 {
-  if (shell_.properties().damping_stiffness == 0)
+  if (!shell_.is_damped())
     return;
-  material_stiffness_.set_zero();
-  shell_.add_material_stiffness(x, material_stiffness_);
+  damping_.set_zero();
+  shell_.add_damping(x, damping_);
 }
 
 /// D v with D = f_m M + f_k K_mat(x_n).
 Eigen::VectorXd Dynamics::damping_force(const Eigen::VectorXd& v) const
 {
-  const Properties& p = shell_.properties();
-  Eigen::VectorXd f = Eigen::VectorXd::Zero(v.size());
-  if (p.damping_mass > 0)
-    f += p.damping_mass * shell_.mass_times(v);
-  if (p.damping_stiffness > 0)
-    f += p.damping_stiffness * (material_stiffness_ * v);
-  return f;
+  if (!shell_.is_damped())
+    return Eigen::VectorXd::Zero(v.size());
+  return damping_ * v;
 }
 
 Eigen::VectorXd Dynamics::predicted_positions(double dt) const
@@ -105,11 +102,10 @@ Kinematics Dynamics::kinematics(const Eigen::VectorXd& positions, double dt) con
 /// K + 4/dt^2 M + 2/dt D - d f_ext/dx
 void Dynamics::assemble_tangent(const Eigen::VectorXd& x, const LoadsAtTime& loads, double dt, BlockMatrix& K) const
 {
-  const Properties& p = shell_.properties();
   shell_.add_tangent(x, K);
-  shell_.add_mass(4 / (dt * dt) + 2 / dt * p.damping_mass, K);
-  if (p.damping_stiffness > 0)
-    K.add(2 / dt * p.damping_stiffness, material_stiffness_);
+  shell_.add_mass(4 / (dt * dt), K);
+  if (shell_.is_damped())
+    K.add(2 / dt, damping_);
   loads.subtract_stiffness(x, 1, K);
 }
 
@@ -146,7 +142,7 @@ Dynamics::Trial Dynamics::solve(double t_new, double dt, const Eigen::VectorXd& 
 
 Folds Dynamics::accept(const Eigen::VectorXd& positions, double t_new, double dt, const Eigen::VectorXd& fluid_forces)
 {
-  const Folds report = check_folds(shell_, positions, when(t_new));
+  const Folds report = check_folds(shell_, positions, options_.fold_limit, when(t_new));
   const Kinematics k = kinematics(positions, dt);
   const Eigen::VectorXd prescribed = loads_.at(t_new).force(positions);
   const Eigen::VectorXd moved = positions - state_.x;

@@ -38,6 +38,7 @@ struct EnergyLedger {
 
 struct DynamicsOptions {
   NewtonPolicy newton;
+  double fold_limit = 75;  ///< a step that folds the shell by more over an edge is refused [degrees]
   LinearSolverKind linear_solver = LinearSolverKind::Direct;
 };
 
@@ -96,7 +97,7 @@ class Dynamics {
   Trial solve(double t_new, double dt, const Eigen::VectorXd& fluid_forces, const Eigen::VectorXd& guess);
 
   /// Make positions, with Newmark's velocity and acceleration, the accepted state.
-  /// \throws RunError naming the place when the shell folds by more than 75 degrees over an edge; the state is
+  /// \throws RunError naming the place when the shell folds by more than the limit over an edge; the state is
   /// unchanged.
   Folds accept(const Eigen::VectorXd& positions, double t_new, double dt, const Eigen::VectorXd& fluid_forces);
 
@@ -114,7 +115,7 @@ class Dynamics {
   EnergyLedger ledger_;
   Eigen::VectorXd prescribed_forces_;  ///< of the accepted state
   Eigen::VectorXd fluid_forces_;       ///< of the accepted state
-  BlockMatrix material_stiffness_;
+  BlockMatrix damping_;
   KeptTangent tangent_;
   Linearisation linearisation_;
   bool slow_ = false;  ///< a solve since the last accept took many iterations

@@ -8,20 +8,30 @@ namespace luff::shell {
 
 namespace {
 
-/// Strains of one triangle and what their derivatives share.
-struct Kinematics {
-  Vec3 n;                         ///< unit normal
-  Mat3 G;                         ///< column i: current gradient of area coordinate i, n x d_i / (2 A_c)
-  Eigen::Matrix<double, 3, 2> F;  ///< sum_i x_i (x) g_i
-  Mat3 a;                         ///< column V: sum_i H_V^i y_i
-  Vec3 kappa;                     ///< n . a_V
-  Vec3 E_membrane;                ///< (F'F - I)/2 in Voigt order with engineering shear
-  Vec3 E_bending;                 ///< -(kappa - kappa_0)
-};
-
-Kinematics kinematics(const Element& e, const NodePositions& y)
+/// Derivative of the membrane strain in the position of corner i: g_i1 F_1', g_i2 F_2', g_i1 F_2' + g_i2 F_1'.
+Mat3 membrane_derivative(const Element& e, const ElementKinematics& k, int i)
 {
-  Kinematics k;
+  const double g1 = e.gradient(0, i), g2 = e.gradient(1, i);
+  Mat3 B;
+  B.row(0) = g1 * k.F.col(0).transpose();
+  B.row(1) = g2 * k.F.col(1).transpose();
+  B.row(2) = (g1 * k.F.col(1) + g2 * k.F.col(0)).transpose();
+  return B;
+}
+
+/// rho_i^V = H_V^i - [i<3] a_V . G_i, so that the variation of kappa_V is sum_i rho_i^V n . (variation of y_i).
+Eigen::Matrix<double, 3, max_nodes> curvature_derivative(const Element& e, const ElementKinematics& k)
+{
+  Eigen::Matrix<double, 3, max_nodes> rho = e.H;
+  rho.leftCols<3>().noalias() -= k.a.transpose() * k.G;
+  return rho;
+}
+
+}  // namespace
+
+ElementKinematics kinematics(const Element& e, const NodePositions& y)
+{
+  ElementKinematics k;
   const Vec3 d1 = y.col(2) - y.col(1), d2 = y.col(0) - y.col(2), d3 = y.col(1) - y.col(0);
   const Vec3 c = d2.cross(d3);
   const double twice_area = c.norm();
@@ -37,32 +47,25 @@ Kinematics kinematics(const Element& e, const NodePositions& y)
   return k;
 }
 
-/// Derivative of the membrane strain in the position of corner i: g_i1 F_1', g_i2 F_2', g_i1 F_2' + g_i2 F_1'.
-Mat3 membrane_derivative(const Element& e, const Kinematics& k, int i)
+NodeForces nodal_forces(const Element& e, const ElementKinematics& k, const Resultants& resultants)
 {
-  const double g1 = e.gradient(0, i), g2 = e.gradient(1, i);
-  Mat3 B;
-  B.row(0) = g1 * k.F.col(0).transpose();
-  B.row(1) = g2 * k.F.col(1).transpose();
-  B.row(2) = (g1 * k.F.col(1) + g2 * k.F.col(0)).transpose();
-  return B;
+  const Vec3 q = -e.area * resultants.M;
+  Eigen::Matrix<double, 1, max_nodes> r = q.transpose() * e.H;
+  r.head<3>().noalias() -= (k.a * q).transpose() * k.G;
+  NodeForces f = k.n * r;
+  const Vec3 N = e.area * resultants.N;
+  Eigen::Matrix<double, 3, 2> stress;
+  stress << N[0] * k.F.col(0) + N[2] * k.F.col(1), N[1] * k.F.col(1) + N[2] * k.F.col(0);
+  f.leftCols<3>().noalias() += stress * e.gradient;
+  return f;
 }
 
-/// rho_i^V = H_V^i - [i<3] a_V . G_i, so that the variation of kappa_V is sum_i rho_i^V n . (variation of y_i).
-Eigen::Matrix<double, 3, max_nodes> curvature_derivative(const Element& e, const Kinematics& k)
-{
-  Eigen::Matrix<double, 3, max_nodes> rho = e.H;
-  rho.leftCols<3>().noalias() -= k.a.transpose() * k.G;
-  return rho;
-}
-
-/// A B'DB: w from bending, m from the membrane.
-ElementTangent material_part(const Element& e, const Rigidity& D, const Kinematics& k,
-                             const Eigen::Matrix<double, 3, max_nodes>& rho)
+ElementTangent material_tangent(const Element& e, const ElementKinematics& k, const SectionStiffness& D, bool coupled)
 {
   ElementTangent K;
   K.n = k.n;
   K.G = k.G;
+  const Eigen::Matrix<double, 3, max_nodes> rho = curvature_derivative(e, k);
   const Eigen::Matrix<double, 3, max_nodes> D_rho = e.area * (D.bending * rho);
   K.w.noalias() = rho.transpose() * D_rho;
   K.r.setZero();
@@ -74,58 +77,27 @@ ElementTangent material_part(const Element& e, const Rigidity& D, const Kinemati
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       K.m[3 * i + j].noalias() = B[i].transpose() * DB[j];
+  K.coupled = coupled;
+  if (coupled)
+    for (int i = 0; i < 3; ++i)
+      K.c[i].noalias() = e.area * (D.coupling * B[i]).transpose() * rho;
   return K;
 }
 
-}  // namespace
-
-Vec3 curvature(const Element& e, const NodePositions& y)
+void add_geometric_tangent(const Element& e, const ElementKinematics& k, const Resultants& resultants,
+                           ElementTangent& K)
 {
-  return kinematics(e, y).kappa;
-}
-
-double energy(const Element& e, const Rigidity& D, const NodePositions& y)
-{
-  const Kinematics k = kinematics(e, y);
-  return 0.5 * e.area * (k.E_membrane.dot(D.membrane * k.E_membrane) + k.E_bending.dot(D.bending * k.E_bending));
-}
-
-NodeForces force(const Element& e, const Rigidity& D, const NodePositions& y)
-{
-  const Kinematics k = kinematics(e, y);
-  const Vec3 q = -e.area * (D.bending * k.E_bending);
-  Eigen::Matrix<double, 1, max_nodes> r = q.transpose() * e.H;
-  r.head<3>().noalias() -= (k.a * q).transpose() * k.G;
-  NodeForces f = k.n * r;
-  const Vec3 N = e.area * (D.membrane * k.E_membrane);
-  Mat3 stress;
-  stress.leftCols<2>() << N[0] * k.F.col(0) + N[2] * k.F.col(1), N[1] * k.F.col(1) + N[2] * k.F.col(0);
-  f.leftCols<3>().noalias() += stress.leftCols<2>() * e.gradient;
-  return f;
-}
-
-ElementTangent tangent(const Element& e, const Rigidity& D, const NodePositions& y)
-{
-  const Kinematics k = kinematics(e, y);
-  const Eigen::Matrix<double, 3, max_nodes> rho = curvature_derivative(e, k);
-  ElementTangent K = material_part(e, D, k, rho);
-  const Vec3 q = -e.area * (D.bending * k.E_bending);
-  K.r.noalias() = rho.transpose() * q;
+  const Vec3 q = -e.area * resultants.M;
+  K.r.noalias() = e.H.transpose() * q;
+  K.r.head<3>().noalias() -= k.G.transpose() * (k.a * q);
   K.w.topLeftCorner<3, 3>().noalias() -= q.dot(k.kappa) * (k.G.transpose() * k.G);
-  const Vec3 N = e.area * (D.membrane * k.E_membrane);
+  const Vec3 N = e.area * resultants.N;
   Eigen::Matrix2d stress;
   stress << N[0], N[2], N[2], N[1];
   const Mat3 geometric = e.gradient.transpose() * stress * e.gradient;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       K.m[3 * i + j].diagonal().array() += geometric(i, j);
-  return K;
-}
-
-ElementTangent material_tangent(const Element& e, const Rigidity& D, const NodePositions& y)
-{
-  const Kinematics k = kinematics(e, y);
-  return material_part(e, D, k, curvature_derivative(e, k));
 }
 
 }  // namespace luff::shell

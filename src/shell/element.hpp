@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/vec3.hpp"
+#include "shell/section.hpp"
 
 namespace luff::shell {
 
@@ -23,38 +24,42 @@ struct Element {
   Eigen::Matrix<double, 2, 3> gradient;   ///< of the area coordinates [1/L]
   Vec3 kappa_0;                           ///< curvature of the reference [1/L]
   double area = 0;                        ///< of the reference [L^2]
-};
-
-/// Plane-stress stiffness integrated over the thickness: N = membrane E^m, M = bending E^b.
-struct Rigidity {
-  Mat3 membrane;  ///< h C [M/T^2]
-  Mat3 bending;   ///< h^3/12 C [M L^2/T^2]
+  Fibre fibre = Fibre::UnitX();           ///< direction of the material in the frame of the triangle
 };
 
 /// Positions of the nodes relative to node 0 [L].
 using NodePositions = Eigen::Matrix<double, 3, max_nodes>;
 using NodeForces = Eigen::Matrix<double, 3, max_nodes>;
 
-/// Curvature kappa_V = n . sum_i H_V^i y_i.
-Vec3 curvature(const Element& element, const NodePositions& y);
+/// Strains of one triangle and what their derivatives share.
+struct ElementKinematics {
+  Vec3 n;                         ///< unit normal
+  Mat3 G;                         ///< column i: current gradient of area coordinate i, n x d_i / (2 A_c)
+  Eigen::Matrix<double, 3, 2> F;  ///< sum_i x_i (x) g_i
+  Mat3 a;                         ///< column V: sum_i H_V^i y_i
+  Vec3 kappa;                     ///< n . a_V
+  Vec3 E_membrane;                ///< (F'F - I)/2 in Voigt order with engineering shear
+  Vec3 E_bending;                 ///< -(kappa - kappa_0)
+};
 
-/// Stored energy A (E^m N + E^b M)/2 [M L^2/T^2].
-double energy(const Element& element, const Rigidity& rigidity, const NodePositions& y);
+ElementKinematics kinematics(const Element& element, const NodePositions& y);
 
-/// Gradient of the energy in the nodes' positions.
-NodeForces force(const Element& element, const Rigidity& rigidity, const NodePositions& y);
+/// Forces that resultants per area of the reference make at the nodes, A (B^m' N + B^b' M).
+NodeForces nodal_forces(const Element& element, const ElementKinematics& k, const Resultants& resultants);
 
 /// Hessian of the energy in factored form,
 ///
-///   K_ij = w_ij n n' - [j<3] r_i G_j n' - [i<3] r_j n G_i' + [i,j<3] m_ij,
+///   K_ij = w_ij n n' - [j<3] r_i G_j n' - [i<3] r_j n G_i' - [i<3] c_ij n' - [j<3] n c_ji' + [i,j<3] m_ij,
 ///
-/// with n the normal, G_i the current in-plane gradients.
+/// with n the normal, G_i the current in-plane gradients; c is zero unless the section couples stretch and bending.
 struct ElementTangent {
   Eigen::Matrix<double, max_nodes, max_nodes> w;
   Eigen::Matrix<double, max_nodes, 1> r;
   Mat3 G;  ///< column i: gradient of node i's area coordinate in the current triangle
   Vec3 n;
   std::array<Mat3, 9> m;
+  bool coupled = false;
+  std::array<Eigen::Matrix<double, 3, max_nodes>, 3> c;  ///< c[i].col(j) is c_ij
 
   Mat3 block(int i, int j) const
   {
@@ -63,15 +68,22 @@ struct ElementTangent {
       K.noalias() -= r[i] * G.col(j) * n.transpose();
     if (i < 3)
       K.noalias() -= r[j] * n * G.col(i).transpose();
+    if (coupled && i < 3)
+      K.noalias() -= c[i].col(j) * n.transpose();
+    if (coupled && j < 3)
+      K.noalias() -= n * c[j].col(i).transpose();
     if (i < 3 && j < 3)
       K += m[3 * i + j];
     return K;
   }
 };
 
-ElementTangent tangent(const Element& element, const Rigidity& rigidity, const NodePositions& y);
+/// The part A B'DB of the tangent: positive semi-definite where D is, no force on rigid motions.
+ElementTangent material_tangent(const Element& element, const ElementKinematics& k, const SectionStiffness& D,
+                                bool coupled);
 
-/// The part A B'DB of the tangent: positive semi-definite, no force on rigid motions.
-ElementTangent material_tangent(const Element& element, const Rigidity& rigidity, const NodePositions& y);
+/// tangent += the part that the resultants make through the change of the strains' derivatives.
+void add_geometric_tangent(const Element& element, const ElementKinematics& k, const Resultants& resultants,
+                           ElementTangent& tangent);
 
 }  // namespace luff::shell

@@ -48,17 +48,17 @@ Folds folds(const Shell& shell, const Eigen::VectorXd& x)
   return result;
 }
 
-Folds check_folds(const Shell& shell, const Eigen::VectorXd& x, const std::string& when)
+Folds check_folds(const Shell& shell, const Eigen::VectorXd& x, double limit, const std::string& when)
 {
-  constexpr double limit = 75;
   const Folds found = folds(shell, x);
   if (found.largest > limit) {
     const auto [a, b] = surface::edge_vertices(shell.reference().triangles[found.at.triangle], found.at.edge);
+    const PieceRange& piece = shell.piece_of_vertex(a);
     const Vec3 at = 0.5 * (x.segment<3>(3 * a) + x.segment<3>(3 * b));
     fail_run(
         "{}: shell '{}' folds by {:.0f} degrees over the edge of vertices {} and {} at ({:.6g}, {:.6g}, {:.6g}), "
-        "more than the {:.0f} its triangles can follow; refine the mesh there or take smaller steps",
-        when, shell.name(), found.largest, a, b, at.x(), at.y(), at.z(), limit);
+        "more than structure.fold_limit = {:.0f}; refine the mesh there or take smaller steps",
+        when, piece.name, found.largest, a - piece.first_vertex, b - piece.first_vertex, at.x(), at.y(), at.z(), limit);
   }
   return found;
 }

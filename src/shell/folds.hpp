@@ -19,8 +19,8 @@ struct Folds {
 
 Folds folds(const Shell& shell, const Eigen::VectorXd& x);
 
-/// Folds, none above 75 degrees: the element's resistance has a maximum at 90 and falls beyond.
+/// Folds, none above `limit` [degrees]: the element's resistance has a maximum at 90 and falls beyond.
 /// \throws RunError that starts with `when` and names the place.
-Folds check_folds(const Shell& shell, const Eigen::VectorXd& x, const std::string& when);
+Folds check_folds(const Shell& shell, const Eigen::VectorXd& x, double limit, const std::string& when);
 
 }  // namespace luff::shell

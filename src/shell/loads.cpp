@@ -23,6 +23,23 @@ Mat3 cross_matrix(const Vec3& d)
 
 }  // namespace
 
+Load renumbered(Load load, int first_vertex, int first_triangle)
+{
+  const auto shift = [](std::vector<int>& numbers, int by) {
+    for (int& number : numbers)
+      number += by;
+  };
+  std::visit(
+      [&](auto& kind) {
+        if constexpr (requires { kind.vertices; })
+          shift(kind.vertices, first_vertex);
+        else
+          shift(kind.triangles, first_triangle);
+      },
+      load);
+  return load;
+}
+
 std::vector<int> triangles_of(const surface::TriangleMesh& mesh, std::span<const int> vertices)
 {
   std::vector<char> selected(mesh.vertices.size(), 0);
@@ -54,8 +71,11 @@ Loads::Loads(const Shell& shell, std::vector<Load> loads) : shell_(shell), loads
       check_edges(std::get<EdgeMoment>(load).vertices, "edge moment");
     }
   }
-  const Vec3 gravity = shell_.properties().gravity;
-  weight_ = shell_.mass_times(gravity.replicate(shell_.n_vertices(), 1));
+  Eigen::VectorXd gravity(3 * shell_.n_vertices());
+  for (const PieceRange& piece : shell_.pieces())
+    gravity.segment(3 * piece.first_vertex, 3 * piece.n_vertices) =
+        piece.properties.gravity.replicate(piece.n_vertices, 1);
+  weight_ = shell_.mass_times(gravity);
 }
 
 void Loads::check_vertices(const std::vector<int>& vertices, std::string_view kind) const

@@ -58,6 +58,9 @@ struct EdgeMoment {
 
 using Load = std::variant<PointForce, Traction, Pressure, EdgeForce, EdgeMoment>;
 
+/// The load with its vertices and triangles counted from those of a piece: both numbers are added.
+Load renumbered(Load load, int first_vertex, int first_triangle);
+
 /// Triangles with all corners among the vertices.
 std::vector<int> triangles_of(const surface::TriangleMesh& mesh, std::span<const int> vertices);
 

@@ -20,12 +20,14 @@ namespace {
     while (std::isfinite(dx[worst]))
       ++worst;
   const int v = static_cast<int>(worst / 3);
+  const PieceRange& piece = shell.piece_of_vertex(v);
   const Vec3 X = shell.reference().vertices[v], now = x.segment<3>(3 * v);
   fail_to_converge(
       "{}: shell '{}' found no equilibrium in {} iterations: last increment {:.2e} of its size, at vertex {} "
       "(reference ({:.6g}, {:.6g}, {:.6g}), now ({:.6g}, {:.6g}, {:.6g})); take smaller steps, add damping or "
       "refine the mesh there",
-      when, shell.name(), report.iterations, report.increment, v, X.x(), X.y(), X.z(), now.x(), now.y(), now.z());
+      when, piece.name, report.iterations, report.increment, v - piece.first_vertex, X.x(), X.y(), X.z(), now.x(),
+      now.y(), now.z());
 }
 
 void check_finite(const Shell& shell, const Eigen::VectorXd& r, const Eigen::VectorXd& x, const std::string& when)
@@ -36,11 +38,12 @@ void check_finite(const Shell& shell, const Eigen::VectorXd& r, const Eigen::Vec
   while (std::isfinite(r[first]))
     ++first;
   const int v = static_cast<int>(first / 3);
+  const PieceRange& piece = shell.piece_of_vertex(v);
   const Vec3 now = x.segment<3>(3 * v);
   fail_run(
       "{}: shell '{}': the force on vertex {} at ({:.6g}, {:.6g}, {:.6g}) is no number: a load's formula gives none "
       "there, or the run diverged; mend the formula or take smaller steps",
-      when, shell.name(), v, now.x(), now.y(), now.z());
+      when, piece.name, v - piece.first_vertex, now.x(), now.y(), now.z());
 }
 
 void renew(const Equilibrium& equilibrium, const Eigen::VectorXd& x, KeptTangent& tangent)

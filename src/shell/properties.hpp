@@ -6,15 +6,16 @@
 
 #include "core/vec3.hpp"
 #include "shell/bending_operator.hpp"
+#include "shell/material/material.hpp"
 
 namespace luff::shell {
 
-/// Uniform properties of one shell, in any consistent units.
+/// Uniform properties of one piece of a shell, in any consistent units.
 struct Properties {
-  double thickness = 0;          ///< h [L], > 0
-  double density = 0;            ///< rho [M/L^3], >= 0; dynamics needs > 0
-  double young = 0;              ///< E [M/(L T^2)], > 0
-  double poisson = 0;            ///< nu [-], -1 < nu <= 0.5
+  double thickness = 0;  ///< h [L], > 0
+  double density = 0;    ///< rho [M/L^3], >= 0; dynamics needs > 0
+  Material material;
+  int thickness_points = 0;  ///< Gauss points through the thickness, 1 to 5; 0: what the material recommends
   BendingKind bending = BendingKind::AveragedQuadratics;
   double damping_mass = 0;       ///< f_m [1/T], >= 0
   double damping_stiffness = 0;  ///< f_k [T], >= 0
@@ -25,10 +26,5 @@ struct Properties {
 
 /// \throws InputError naming `shell`, the property, its value and what is allowed.
 void validate(const Properties& properties, std::string_view shell);
-
-/// Plane-stress moduli of St-Venant-Kirchhoff's law in Voigt order (11, 22, 12 with engineering shear) [M/(L T^2)],
-///
-///   C = E/(1 - nu^2) [1 nu 0; nu 1 0; 0 0 (1 - nu)/2].
-Mat3 plane_stress_moduli(const Properties& properties);
 
 }  // namespace luff::shell

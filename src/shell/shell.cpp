@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.hpp"
+#include "shell/fibres.hpp"
 #include "surface/validation.hpp"
 
 namespace luff::shell {
@@ -34,51 +35,85 @@ Eigen::Matrix<double, 2, 3> area_coordinate_gradients(const Vec3& a, const Vec3&
 
 Shell::Shell(surface::TriangleMesh reference, const Properties& properties, std::vector<Support> supports,
              std::string name)
-    : name_(std::move(name)), reference_(std::move(reference)), properties_(properties)
+    : Shell(std::vector<Piece>{{std::move(reference), properties, std::move(supports), std::move(name)}})
 {
-  surface::validate(reference_, "shell '" + name_ + "'");
-  validate(properties_, name_);
+}
+
+Shell::Shell(std::vector<Piece> pieces)
+{
+  ensure(!pieces.empty(), "a shell has at least one piece");
+  for (Piece& piece : pieces)
+    append(std::move(piece));
   topology_ = surface::topology(reference_);
-  size_ = surface::bounding_box(reference_.vertices).size();
   reference_positions_ = surface::interleaved(reference_.vertices);
-  const Constraints held_and_mirrors = constraints(reference_, topology_, supports, name_);
-  held_ = held_and_mirrors.held;
-  const double h = properties_.thickness;
-  const Mat3 C = plane_stress_moduli(properties_);
-  rigidity_ = {h * C, h * h * h / 12 * C};
-  make_elements(bending_operator(properties_.bending, reference_, topology_, held_and_mirrors.mirrors, C, name_));
+  for (Element& e : elements_)
+    e.kappa_0 = kinematics(e, gather(e, reference_positions_)).kappa;
   make_pattern();
   colour_elements();
   make_mass();
 }
 
-void Shell::make_elements(const BendingOperator& bending)
+void Shell::append(Piece piece)
 {
-  images_ = bending.images;
-  worst_conic_ = bending.worst_conic;
-  worst_conic_triangle_ = bending.worst_triangle;
-  n_hinge_patches_ = bending.n_replaced;
-  for (int t = 0; t < reference_.n_triangles(); ++t) {
+  surface::validate(piece.reference, "shell '" + piece.name + "'");
+  validate(piece.properties, piece.name);
+  const surface::Topology topology = surface::topology(piece.reference);
+  const Constraints held = constraints(piece.reference, topology, piece.supports, piece.name);
+  const Mat3 moduli = reference_moduli(piece.properties.material);
+  const BendingOperator bending =
+      bending_operator(piece.properties.bending, piece.reference, topology, held.mirrors, moduli, piece.name);
+  const int first_vertex = n_vertices();
+  pieces_.push_back({piece.name, piece.properties, first_vertex, piece.reference.n_vertices(), reference_.n_triangles(),
+                     piece.reference.n_triangles()});
+  sections_.push_back(
+      make_section(piece.properties.material, piece.properties.thickness, piece.properties.thickness_points));
+  append_elements(piece, bending, first_vertex);
+  held_.insert(held_.end(), held.held.begin(), held.held.end());
+  reference_.vertices.insert(reference_.vertices.end(), piece.reference.vertices.begin(),
+                             piece.reference.vertices.end());
+  for (const auto& [a, b, c] : piece.reference.triangles)
+    reference_.triangles.push_back({a + first_vertex, b + first_vertex, c + first_vertex});
+  size_ = std::max(size_, surface::bounding_box(piece.reference.vertices).size());
+  name_ += name_.empty() ? piece.name : ", " + piece.name;
+}
+
+void Shell::append_elements(const Piece& piece, const BendingOperator& bending, int first_vertex)
+{
+  const std::vector<Fibre> fibres = fibres_in_triangles(piece.reference, piece.fibres, piece.name);
+  const int first_image = static_cast<int>(images_.size());
+  images_.insert(images_.end(), bending.images.begin(), bending.images.end());
+  for (int t = 0; t < piece.reference.n_triangles(); ++t) {
     const auto& stencil = bending.stencils[t];
     ensure(stencil.size() <= max_nodes, "a bending stencil has more nodes than the element holds");
     Element e;
     e.n_nodes = static_cast<int>(stencil.size());
-    e.vertex.fill(stencil[0].vertex);
+    e.vertex.fill(stencil[0].vertex + first_vertex);
     e.image.fill(-1);
     e.H.setZero();
     for (int i = 0; i < e.n_nodes; ++i) {
-      e.vertex[i] = stencil[i].vertex;
-      e.image[i] = stencil[i].image;
+      e.vertex[i] = stencil[i].vertex + first_vertex;
+      e.image[i] = stencil[i].image < 0 ? -1 : stencil[i].image + first_image;
       e.H.col(i) = stencil[i].H;
       e.has_images = e.has_images || e.image[i] >= 0;
     }
-    const auto& corner = reference_.triangles[t];
-    const auto& X = reference_.vertices;
+    const auto& corner = piece.reference.triangles[t];
+    const auto& X = piece.reference.vertices;
     e.gradient = area_coordinate_gradients(X[corner[0]], X[corner[1]], X[corner[2]]);
-    e.area = surface::area(reference_, t);
-    e.kappa_0 = curvature(e, gather(e, reference_positions_));
+    e.area = surface::area(piece.reference, t);
+    e.fibre = fibres[t];
     elements_.push_back(e);
   }
+  if (bending.worst_conic > worst_conic_) {
+    worst_conic_ = bending.worst_conic;
+    worst_conic_triangle_ = pieces_.back().first_triangle + bending.worst_triangle;
+  }
+  n_hinge_patches_ += bending.n_replaced;
+}
+
+const PieceRange& Shell::piece_of_vertex(int vertex) const
+{
+  return *std::prev(std::upper_bound(pieces_.begin(), pieces_.end(), vertex,
+                                     [](int v, const PieceRange& piece) { return v < piece.first_vertex; }));
 }
 
 void Shell::make_pattern()
@@ -101,21 +136,26 @@ void Shell::colour_elements()
 {
   constexpr int run_length = 64;
   std::vector<std::vector<char>> taken;  // per colour, per vertex
-  const int n = static_cast<int>(elements_.size());
-  for (int first = 0; first < n; first += run_length) {
-    const ElementRun run{first, std::min(first + run_length, n)};
-    std::size_t colour = 0;
-    while (colour < taken.size() && touches(run, taken[colour]))
-      ++colour;
-    if (colour == taken.size()) {
-      taken.emplace_back(n_vertices(), 0);
-      colours_.emplace_back();
-    }
-    for (int e = run.first; e < run.last; ++e)
-      for (const int v : elements_[e].vertex)
-        taken[colour][v] = 1;
-    colours_[colour].push_back(run);
+  for (int p = 0; p < static_cast<int>(pieces_.size()); ++p) {
+    const int end = pieces_[p].first_triangle + pieces_[p].n_triangles;
+    for (int first = pieces_[p].first_triangle; first < end; first += run_length)
+      colour_run({first, std::min(first + run_length, end), p}, taken);
   }
+}
+
+void Shell::colour_run(ElementRun run, std::vector<std::vector<char>>& taken)
+{
+  std::size_t colour = 0;
+  while (colour < taken.size() && touches(run, taken[colour]))
+    ++colour;
+  if (colour == taken.size()) {
+    taken.emplace_back(n_vertices(), 0);
+    colours_.emplace_back();
+  }
+  for (int e = run.first; e < run.last; ++e)
+    for (const int v : elements_[e].vertex)
+      taken[colour][v] = 1;
+  colours_[colour].push_back(run);
 }
 
 bool Shell::touches(ElementRun run, const std::vector<char>& vertices) const
@@ -130,10 +170,11 @@ bool Shell::touches(ElementRun run, const std::vector<char>& vertices) const
 void Shell::make_mass()
 {
   std::vector<Eigen::Triplet<double>> entries;
-  for (int t = 0; t < reference_.n_triangles(); ++t)
-    for (const int i : reference_.triangles[t])
-      for (const int j : reference_.triangles[t])
-        entries.emplace_back(i, j, properties_.mass_per_area() * elements_[t].area * (i == j ? 2 : 1) / 12);
+  for (const PieceRange& piece : pieces_)
+    for (int t = piece.first_triangle; t < piece.first_triangle + piece.n_triangles; ++t)
+      for (const int i : reference_.triangles[t])
+        for (const int j : reference_.triangles[t])
+          entries.emplace_back(i, j, piece.properties.mass_per_area() * elements_[t].area * (i == j ? 2 : 1) / 12);
   mass_.resize(n_vertices(), n_vertices());
   mass_.setFromTriplets(entries.begin(), entries.end());
   for (int row = 0; row < mass_.outerSize(); ++row)
@@ -156,6 +197,7 @@ NodePositions Shell::gather(const Element& e, const Eigen::VectorXd& x) const
   return y;
 }
 
+/// Calls body(section, element) with the section of the element's piece: the kind of section is chosen once per run.
 template <class Body>
 void Shell::for_each_element(Body body) const
 {
@@ -165,26 +207,39 @@ void Shell::for_each_element(Body body) const
   for (const std::vector<ElementRun>& colour : colours_) {
     const int n = static_cast<int>(colour.size());
 #pragma omp for schedule(static)
-    for (int run = 0; run < n; ++run)
-      for (int e = colour[run].first; e < colour[run].last; ++e)
-        body(e);
+    for (int r = 0; r < n; ++r)
+      std::visit(
+          [&, run = colour[r]](const auto& section) {
+            for (int e = run.first; e < run.last; ++e)
+              body(section, e);
+          },
+          sections_[colour[r].piece]);
   }
 }
 
 double Shell::elastic_energy(const Eigen::VectorXd& x) const
 {
   double sum = 0;
-  for (const Element& e : elements_)
-    sum += energy(e, rigidity_, gather(e, x));
+  for (std::size_t p = 0; p < pieces_.size(); ++p)
+    std::visit(
+        [&](const auto& section) {
+          for (int t = pieces_[p].first_triangle; t < pieces_[p].first_triangle + pieces_[p].n_triangles; ++t) {
+            const Element& e = elements_[t];
+            const ElementKinematics k = kinematics(e, gather(e, x));
+            sum += e.area * section.energy(k.E_membrane, k.E_bending, e.fibre);
+          }
+        },
+        sections_[p]);
   return sum;
 }
 
 Eigen::VectorXd Shell::internal_force(const Eigen::VectorXd& x) const
 {
   Eigen::VectorXd f = Eigen::VectorXd::Zero(x.size());
-  for_each_element([&](int index) {
+  for_each_element([&](const auto& section, int index) {
     const Element& e = elements_[index];
-    const NodeForces nodal = force(e, rigidity_, gather(e, x));
+    const ElementKinematics k = kinematics(e, gather(e, x));
+    const NodeForces nodal = nodal_forces(e, k, section.resultants(k.E_membrane, k.E_bending, e.fibre));
     for (int i = 0; i < e.n_nodes; ++i) {
       if (e.image[i] < 0)
         f.segment<3>(3 * e.vertex[i]) += nodal.col(i);
@@ -195,8 +250,8 @@ Eigen::VectorXd Shell::internal_force(const Eigen::VectorXd& x) const
   return f;
 }
 
-/// Chain rule through the images, K_xx' = T' K_yy' T'.
-void Shell::scatter(int index, const ElementTangent& tangent, BlockMatrix& K) const
+/// K += factor * tangent. Chain rule through the images, K_xx' = T' K_yy' T'.
+void Shell::scatter(int index, const ElementTangent& tangent, double factor, BlockMatrix& K) const
 {
   const Element& e = elements_[index];
   for (int i = 0; i < e.n_nodes; ++i)
@@ -206,18 +261,58 @@ void Shell::scatter(int index, const ElementTangent& tangent, BlockMatrix& K) co
         block = (images_[e.image[i]].T.transpose() * block).eval();
       if (e.image[j] >= 0)
         block = (block * images_[e.image[j]].T).eval();
-      K.block(slots_[index][max_nodes * i + j]) += block;
+      K.block(slots_[index][max_nodes * i + j]) += factor * block;
     }
 }
 
 void Shell::add_tangent(const Eigen::VectorXd& x, BlockMatrix& K) const
 {
-  for_each_element([&](int e) { scatter(e, tangent(elements_[e], rigidity_, gather(elements_[e], x)), K); });
+  for_each_element([&](const auto& section, int index) {
+    const Element& e = elements_[index];
+    const ElementKinematics k = kinematics(e, gather(e, x));
+    const SectionResponse response = section.response(k.E_membrane, k.E_bending, e.fibre);
+    ElementTangent tangent = material_tangent(e, k, response.stiffness, section.couples);
+    add_geometric_tangent(e, k, response.resultants, tangent);
+    scatter(index, tangent, 1, K);
+  });
 }
 
 void Shell::add_material_stiffness(const Eigen::VectorXd& x, BlockMatrix& K) const
 {
-  for_each_element([&](int e) { scatter(e, material_tangent(elements_[e], rigidity_, gather(elements_[e], x)), K); });
+  add_material_stiffness(
+      x, [](const Properties&) { return 1.0; }, K);
+}
+
+template <class Factor>
+void Shell::add_material_stiffness(const Eigen::VectorXd& x, Factor factor_of_piece, BlockMatrix& K) const
+{
+  for_each_element([&](const auto& section, int index) {
+    const Element& e = elements_[index];
+    const double factor = factor_of_piece(piece_of_vertex(e.vertex[0]).properties);
+    if (factor == 0)
+      return;
+    const ElementKinematics k = kinematics(e, gather(e, x));
+    scatter(index, material_tangent(e, k, section.stiffness(k.E_membrane, k.E_bending, e.fibre), section.couples),
+            factor, K);
+  });
+}
+
+bool Shell::is_damped() const
+{
+  return std::any_of(pieces_.begin(), pieces_.end(), [](const PieceRange& piece) {
+    return piece.properties.damping_mass > 0 || piece.properties.damping_stiffness > 0;
+  });
+}
+
+void Shell::add_damping(const Eigen::VectorXd& x, BlockMatrix& D) const
+{
+  for (int row = 0; row < mass_.outerSize(); ++row) {
+    const double f_m = piece_of_vertex(row).properties.damping_mass;
+    for (int s = mass_.outerIndexPtr()[row]; s < mass_.outerIndexPtr()[row + 1]; ++s)
+      D.block(mass_slot_[s]).diagonal().array() += f_m * mass_.valuePtr()[s];
+  }
+  add_material_stiffness(
+      x, [](const Properties& p) { return p.damping_stiffness; }, D);
 }
 
 Eigen::VectorXd Shell::mass_times(const Eigen::VectorXd& v) const

@@ -13,26 +13,52 @@
 #include "shell/block_matrix.hpp"
 #include "shell/element.hpp"
 #include "shell/properties.hpp"
+#include "shell/section.hpp"
 #include "shell/support.hpp"
 #include "surface/mesh.hpp"
 #include "surface/topology.hpp"
 
 namespace luff::shell {
 
-/// Vectors hold x0 y0 z0 x1 ... of all vertices, the held ones included (3n numbers).
-/// Results don't depend on the number of threads, to the last bit. The object is immutable.
+/// A connected or unconnected mesh of one make. Pieces of one shell are solved together but share no vertex.
+struct Piece {
+  surface::TriangleMesh reference;
+  Properties properties;
+  std::vector<Support> supports{};
+  std::string name = "shell";
+  /// Direction of the material at each triangle, projected on it; empty: along the triangle's first side.
+  std::vector<Vec3> fibres{};
+};
+
+/// Where a piece is among all vertices and triangles of its shell.
+struct PieceRange {
+  std::string name;
+  Properties properties;
+  int first_vertex = 0;
+  int n_vertices = 0;
+  int first_triangle = 0;
+  int n_triangles = 0;
+};
+
+/// One or more pieces that are solved together. Vectors hold x0 y0 z0 x1 ... of all vertices, the held ones included
+/// (3n numbers), the pieces one after the other. Results don't depend on the number of threads, to the last bit. The
+/// object is immutable.
 class Shell {
  public:
-  /// \throws InputError for a bad mesh, property or support, naming `name`.
+  /// \throws InputError for a bad mesh, property or support, naming the piece.
+  explicit Shell(std::vector<Piece> pieces);
+  /// One piece. \throws as above.
   Shell(surface::TriangleMesh reference, const Properties& properties, std::vector<Support> supports,
         std::string name = "shell");
 
+  /// Of all pieces, joined by commas.
   const std::string& name() const { return name_; }
+  const std::vector<PieceRange>& pieces() const { return pieces_; }
+  const PieceRange& piece_of_vertex(int vertex) const;
   const surface::TriangleMesh& reference() const { return reference_; }
   const surface::Topology& topology() const { return topology_; }
-  const Properties& properties() const { return properties_; }
   int n_vertices() const { return reference_.n_vertices(); }
-  /// Diagonal of the reference's bounding box [L].
+  /// Diagonal of the bounding box of the largest piece's reference [L].
   double size() const { return size_; }
   const Eigen::VectorXd& reference_positions() const { return reference_positions_; }
   /// 3n flags: 1 where the displacement is held at zero.
@@ -53,6 +79,10 @@ class Shell {
   void add_mass(double factor, BlockMatrix& K) const;
   /// The mass alone, on its own smaller pattern.
   BlockMatrix mass_matrix() const;
+  /// Has any piece Rayleigh damping?
+  bool is_damped() const;
+  /// D += f_m M + f_k K_mat(x), with each piece's factors; K_mat as in add_material_stiffness.
+  void add_damping(const Eigen::VectorXd& x, BlockMatrix& D) const;
 
   /// Put zeros where the displacement is held.
   void clear_held(Eigen::VectorXd& v) const;
@@ -63,30 +93,35 @@ class Shell {
   int n_hinge_patches() const { return n_hinge_patches_; }
 
  private:
-  /// Elements first .. last - 1.
+  /// Elements first .. last - 1 of one piece.
   struct ElementRun {
     int first;
     int last;
+    int piece;
   };
 
+  void append(Piece piece);
+  void append_elements(const Piece& piece, const BendingOperator& bending, int first_vertex);
   NodePositions gather(const Element& element, const Eigen::VectorXd& x) const;
   template <class Body>
   void for_each_element(Body body) const;
-  void scatter(int element, const ElementTangent& tangent, BlockMatrix& K) const;
-  void make_elements(const BendingOperator& bending);
+  template <class Factor>
+  void add_material_stiffness(const Eigen::VectorXd& x, Factor factor_of_piece, BlockMatrix& K) const;
+  void scatter(int element, const ElementTangent& tangent, double factor, BlockMatrix& K) const;
   void make_pattern();
   void colour_elements();
+  void colour_run(ElementRun run, std::vector<std::vector<char>>& taken);
   bool touches(ElementRun run, const std::vector<char>& vertices) const;
   void make_mass();
 
   std::string name_;
   surface::TriangleMesh reference_;
-  Properties properties_;
   surface::Topology topology_;
+  std::vector<PieceRange> pieces_;
+  std::vector<Section> sections_;  ///< of each piece
   double size_ = 0;
   Eigen::VectorXd reference_positions_;
   std::vector<char> held_;
-  Rigidity rigidity_;
   std::vector<Image> images_;
   std::vector<Element> elements_;
   std::shared_ptr<const BlockPattern> pattern_;

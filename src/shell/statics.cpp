@@ -122,7 +122,7 @@ StaticStep solve_static(const Shell& shell, const std::vector<Load>& loads, cons
     const std::string when =
         fmt::format("static step {} of {}, load factor {:.6g}", step, options.steps, now.load_factor);
     now.report = path.advance(now.positions, from, now.load_factor, when, options.max_halvings);
-    now.folds = check_folds(shell, now.positions, when);
+    now.folds = check_folds(shell, now.positions, options.fold_limit, when);
     if (on_step)
       on_step(now);
   }

@@ -14,9 +14,10 @@
 namespace luff::shell {
 
 struct StaticOptions {
-  int steps = 20;        ///< equal load steps, at least 1
-  int max_halvings = 6;  ///< of a step that finds no equilibrium
-  double time = 0;       ///< at which loads that depend on time are evaluated
+  int steps = 20;          ///< equal load steps, at least 1
+  int max_halvings = 6;    ///< of a step that finds no equilibrium
+  double time = 0;         ///< at which loads that depend on time are evaluated
+  double fold_limit = 75;  ///< a step that folds the shell by more over an edge is refused [degrees]
   NewtonPolicy newton{.tolerance = 1e-11, .slow = 0, .max_iterations = 30};
   LinearSolverKind linear_solver = LinearSolverKind::Direct;
 };

@@ -18,9 +18,13 @@ namespace luff::simulation {
 
 [[nodiscard]] surface::TriangleMesh build_mesh(const config::MeshOptions& mesh,
                                                const config::PlacementOptions& placement, const std::string& owner);
-[[nodiscard]] ShellPart build_shell(const config::ShellOptions& options, const config::StructureOptions& structure);
-[[nodiscard]] std::unique_ptr<shell::Shell> build_shell_alone(const config::ShellOptions& options);
-[[nodiscard]] std::vector<shell::Load> build_loads(const config::ShellOptions& options, const shell::Shell& shell);
+/// Shells as pieces of one, and what loads them.
+struct LoadedShell {
+  std::unique_ptr<shell::Shell> shell;
+  std::vector<shell::Load> loads;
+};
+/// At least one shell.
+[[nodiscard]] LoadedShell build_shell(const std::vector<config::ShellOptions>& options);
 [[nodiscard]] std::unique_ptr<Structure> build_structure(const config::Case& options);
 
 [[nodiscard]] std::array<std::vector<double>, 3> build_coordinates(const config::GridOptions& options);

@@ -75,12 +75,16 @@ shell::BendingKind bending_of(config::BendingElement bending)
   return shell::BendingKind::AveragedQuadratics;
 }
 
+shell::Material material_of(const config::MaterialOptions& options)
+{
+  return shell::SaintVenantKirchhoff{.young = options.young, .poisson = options.poisson};
+}
+
 shell::Properties properties_of(const config::ShellOptions& options)
 {
   return {.thickness = options.thickness,
           .density = options.density,
-          .young = options.material.young,
-          .poisson = options.material.poisson,
+          .material = material_of(options.material),
           .bending = bending_of(options.bending),
           .damping_mass = options.damping.mass,
           .damping_stiffness = options.damping.stiffness,
@@ -165,48 +169,79 @@ surface::TriangleMesh build_mesh(const config::MeshOptions& mesh, const config::
   return refusing_at(mesh.mark, [&] { return placed_mesh(mesh, placement, owner); });
 }
 
-std::unique_ptr<shell::Shell> build_shell_alone(const config::ShellOptions& options)
+namespace {
+
+shell::Piece build_piece(const config::ShellOptions& options)
 {
   const std::string owner = fmt::format("shell '{}'", options.name);
-  surface::TriangleMesh mesh = build_mesh(options.mesh, options.placement, owner);
-  std::vector<shell::Support> supports;
+  shell::Piece piece{.reference = build_mesh(options.mesh, options.placement, owner),
+                     .properties = properties_of(options),
+                     .name = options.name};
   for (std::size_t n = 0; n < options.supports.size(); ++n)
-    supports.push_back(support_of(options.supports[n], mesh, fmt::format("{}, support {}", owner, n + 1)));
-  return refusing_at(options.mark, [&] {
-    return std::make_unique<shell::Shell>(std::move(mesh), properties_of(options), std::move(supports), options.name);
-  });
+    piece.supports.push_back(
+        support_of(options.supports[n], piece.reference, fmt::format("{}, support {}", owner, n + 1)));
+  return piece;
 }
 
-std::vector<shell::Load> build_loads(const config::ShellOptions& options, const shell::Shell& shell)
+/// The loads of one shell, in its own numbering.
+std::vector<shell::Load> build_loads(const config::ShellOptions& options, const surface::TriangleMesh& mesh)
 {
   std::vector<shell::Load> loads;
   for (std::size_t n = 0; n < options.loads.size(); ++n)
     loads.push_back(refusing_at(options.loads[n].mark, [&] {
-      return load_of(options.loads[n], shell.reference(), fmt::format("shell '{}', load {}", options.name, n + 1));
+      return load_of(options.loads[n], mesh, fmt::format("shell '{}', load {}", options.name, n + 1));
     }));
   return loads;
 }
 
-ShellPart build_shell(const config::ShellOptions& options, const config::StructureOptions& structure)
+}  // namespace
+
+LoadedShell build_shell(const std::vector<config::ShellOptions>& options)
 {
-  ShellPart part;
-  part.shell = build_shell_alone(options);
-  shell::DynamicsOptions dynamics;
-  if (structure.solver == config::StructureSolver::Cg)
-    dynamics.linear_solver = shell::LinearSolverKind::ConjugateGradients;
-  part.dynamics = std::make_unique<shell::Dynamics>(*part.shell, build_loads(options, *part.shell), dynamics);
-  return part;
+  LoadedShell result;
+  std::vector<shell::Piece> pieces;
+  int first_vertex = 0, first_triangle = 0;
+  for (const config::ShellOptions& shell_options : options) {
+    shell::Piece piece = refusing_at(shell_options.mark, [&] {
+      shell::Piece made = build_piece(shell_options);
+      (void)shell::Shell({made});  // what is wrong with a piece is told with its own place in the file
+      return made;
+    });
+    for (const shell::Load& load : build_loads(shell_options, piece.reference))
+      result.loads.push_back(shell::renumbered(load, first_vertex, first_triangle));
+    first_vertex += piece.reference.n_vertices();
+    first_triangle += piece.reference.n_triangles();
+    pieces.push_back(std::move(piece));
+  }
+  result.shell = std::make_unique<shell::Shell>(std::move(pieces));
+  return result;
 }
+
+namespace {
+
+Shells build_shells(const config::Case& options)
+{
+  Shells shells;
+  if (options.shells.empty())
+    return shells;
+  LoadedShell built = build_shell(options.shells);
+  shells.shell = std::move(built.shell);
+  shell::DynamicsOptions dynamics;
+  dynamics.fold_limit = options.structure.fold_limit;
+  if (options.structure.solver == config::StructureSolver::Cg)
+    dynamics.linear_solver = shell::LinearSolverKind::ConjugateGradients;
+  shells.dynamics = std::make_unique<shell::Dynamics>(*shells.shell, built.loads, dynamics);
+  return shells;
+}
+
+}  // namespace
 
 std::unique_ptr<Structure> build_structure(const config::Case& options)
 {
-  std::vector<ShellPart> shells;
-  for (const config::ShellOptions& shell : options.shells)
-    shells.push_back(build_shell(shell, options.structure));
   std::vector<RigidSheet> rigid;
   for (const config::BodyOptions& body : options.bodies)
     rigid.push_back(build_rigid(body));
-  return std::make_unique<Structure>(std::move(shells), std::move(rigid));
+  return std::make_unique<Structure>(build_shells(options), std::move(rigid));
 }
 
 }  // namespace luff::simulation

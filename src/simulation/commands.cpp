@@ -130,12 +130,7 @@ output::SurfaceSnapshot surface_snapshot(const Structure& structure, const Sheet
   const auto first = positions.begin() + sheet.first_vertex;
   output::SurfaceSnapshot snapshot;
   snapshot.points.assign(first, first + sheet.vertices);
-  for (int e = 0; e < sheet.triangles; ++e) {
-    auto corners = structure.triangles()[sheet.first_triangle + e];
-    for (int& v : corners)
-      v -= sheet.first_vertex;
-    snapshot.triangles.push_back(corners);
-  }
+  snapshot.triangles = sheet.reference.triangles;
   return snapshot;
 }
 
@@ -149,7 +144,7 @@ void run_case(MPI_Comm comm, const std::filesystem::path& file, const config::Ov
   set_threads(comm, options, run.threads);
   if (is_static(options)) {
     const auto structure = build_structure(options);
-    const std::vector<StaticShell> shells = build_static(options);
+    const std::vector<LoadedShell> shells = build_static(options);
     const output::RunFolder folder = make_folder(comm, file, run);
     const auto log = start_log(folder, options);
     say_groups(*log, options, *structure);

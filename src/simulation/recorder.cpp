@@ -110,7 +110,7 @@ void Recorder::open_probe(const config::ProbeOptions& options)
   if (options.shell) {
     for (const SheetRange& sheet : simulation_.structure().sheets())
       if (sheet.name == *options.shell) {
-        const surface::TriangleMesh& mesh = reference_mesh(sheet);
+        const surface::TriangleMesh& mesh = sheet.reference;
         const int nearest =
             surface::select_vertices(mesh, surface::PointWhere{options.point}, fmt::format("probe '{}'", options.name))
                 .front();
@@ -125,12 +125,6 @@ void Recorder::open_probe(const config::ProbeOptions& options)
   }
   probe.csv = std::make_unique<output::CsvWriter>(folder_, "probe-" + probe.name + ".csv", columns);
   probes_.push_back(std::move(probe));
-}
-
-const surface::TriangleMesh& Recorder::reference_mesh(const SheetRange& sheet) const
-{
-  const Structure& structure = simulation_.structure();
-  return sheet.deforms ? structure.shell(sheet.part).shell->reference() : structure.rigid(sheet.part).mesh;
 }
 
 bool Recorder::record(const StepRecord& record)
@@ -274,7 +268,7 @@ output::SurfaceSnapshot Recorder::sheet_snapshot(const SheetRange& sheet, double
 {
   const Structure& structure = simulation_.structure();
   const std::vector<Vec3> now = structure.accepted_positions(t);
-  const surface::TriangleMesh& reference = reference_mesh(sheet);
+  const surface::TriangleMesh& reference = sheet.reference;
   output::SurfaceSnapshot snapshot;
   std::vector<double> displacement;
   for (int v = 0; v < sheet.vertices; ++v) {

@@ -45,7 +45,6 @@ class Recorder {
     std::array<std::vector<double>, 3> value;  ///< displacement or velocity
     std::unique_ptr<output::CsvWriter> csv;
   };
-  [[nodiscard]] const surface::TriangleMesh& reference_mesh(const SheetRange& sheet) const;
   void open_tables();
   void open_probe(const config::ProbeOptions& options);
   void write_steps(const StepRecord& record);

@@ -83,7 +83,10 @@ class StaticRecorder {
 
 shell::StaticOptions static_options(const config::StructureOptions& structure)
 {
-  shell::StaticOptions options{.steps = structure.steps, .time = end_of_loading};
+  shell::StaticOptions options;
+  options.steps = structure.steps;
+  options.time = end_of_loading;
+  options.fold_limit = structure.fold_limit;
   if (structure.solver == config::StructureSolver::Cg)
     options.linear_solver = shell::LinearSolverKind::ConjugateGradients;
   return options;
@@ -110,20 +113,18 @@ void summarise(const output::RunFolder& folder, spdlog::logger& log, nlohmann::o
 
 }  // namespace
 
-std::vector<StaticShell> build_static(const config::Case& options)
+std::vector<LoadedShell> build_static(const config::Case& options)
 {
-  std::vector<StaticShell> shells;
+  std::vector<LoadedShell> shells;
   for (const config::ShellOptions& shell_options : options.shells) {
-    auto shell = build_shell_alone(shell_options);
-    refusing_at(shell_options.mark, [&] { shell::check_supported(*shell); });
-    auto loads = build_loads(shell_options, *shell);
-    shells.push_back({std::move(shell), std::move(loads)});
+    shells.push_back(build_shell({shell_options}));
+    refusing_at(shell_options.mark, [&] { shell::check_supported(*shells.back().shell); });
   }
   return shells;
 }
 
 void run_static(const output::RunFolder& folder, const std::shared_ptr<spdlog::logger>& log,
-                const config::Case& options, const std::vector<StaticShell>& shells,
+                const config::Case& options, const std::vector<LoadedShell>& shells,
                 const std::function<bool()>& interrupted)
 {
   nlohmann::ordered_json summary{{"title", options.title}, {"state", "failed"}};

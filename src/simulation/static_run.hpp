@@ -10,24 +10,18 @@
 
 #include "config/case.hpp"
 #include "output/run_folder.hpp"
-#include "shell/loads.hpp"
+#include "simulation/build.hpp"
 
 namespace luff::simulation {
 
-/// A shell and what acts on it.
-struct StaticShell {
-  std::unique_ptr<shell::Shell> shell;
-  std::vector<shell::Load> loads;
-};
-
 /// Throws InputError where a shell's mesh, supports or loads are wrong or leave it free to move as a rigid body.
-[[nodiscard]] std::vector<StaticShell> build_static(const config::Case& options);
+[[nodiscard]] std::vector<LoadedShell> build_static(const config::Case& options);
 
 /// Loads every shell in structure.steps equal steps; writes probe-<name>.csv against the load factor, shell-<name>.pvd
 /// and summary.json.  Ends after the step in which a STOP file appears or `interrupted` is true.  Collective.
 /// Throws RunError where there is no equilibrium; the summary then says so.
 void run_static(const output::RunFolder& folder, const std::shared_ptr<spdlog::logger>& log,
-                const config::Case& options, const std::vector<StaticShell>& shells,
+                const config::Case& options, const std::vector<LoadedShell>& shells,
                 const std::function<bool()>& interrupted);
 
 }  // namespace luff::simulation

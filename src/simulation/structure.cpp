@@ -16,6 +16,19 @@ void append(std::vector<Vec3>& to, const Eigen::VectorXd& values)
     to.emplace_back(values.segment<3>(n));
 }
 
+surface::TriangleMesh mesh_of(const shell::Shell& shell, const shell::PieceRange& piece)
+{
+  const auto first = shell.reference().vertices.begin() + piece.first_vertex;
+  surface::TriangleMesh mesh{{first, first + piece.n_vertices}, {}};
+  for (int t = piece.first_triangle; t < piece.first_triangle + piece.n_triangles; ++t) {
+    auto corners = shell.reference().triangles[t];
+    for (int& v : corners)
+      v -= piece.first_vertex;
+    mesh.triangles.push_back(corners);
+  }
+  return mesh;
+}
+
 /// Velocity and acceleration of a prescribed motion by fourth-order central differences.  A tenth of the step resolves
 /// whatever the flow resolves, and keeps round-off near 1e-13 of the velocity.
 struct PrescribedRates {
@@ -35,48 +48,41 @@ PrescribedRates rates(const RigidSheet& sheet, const Vec3& x_0, double t, double
 
 }  // namespace
 
-Structure::Structure(std::vector<ShellPart> shells, std::vector<RigidSheet> rigid)
+Structure::Structure(Shells shells, std::vector<RigidSheet> rigid)
     : shells_(std::move(shells)), rigid_(std::move(rigid))
 {
-  double longest = 0.0;
-  for (std::size_t s = 0; s < shells_.size(); ++s) {
-    add_sheet(shells_[s].shell->name(), true, static_cast<int>(s), shells_[s].shell->reference());
-    unknowns_ += 3 * shells_[s].shell->n_vertices();
-    longest = std::max(longest, shells_[s].shell->size());
+  int part = 0;
+  if (shells_.shell) {
+    for (const shell::PieceRange& piece : shells_.shell->pieces())
+      add_sheet(piece.name, true, part++, mesh_of(*shells_.shell, piece));
+    length_ = shells_.shell->size();
   }
-  for (std::size_t s = 0; s < rigid_.size(); ++s)
-    add_sheet(rigid_[s].name, false, static_cast<int>(s), rigid_[s].mesh);
-  if (longest > 0.0)
-    length_ = longest;
+  part = 0;
+  for (const RigidSheet& sheet : rigid_)
+    add_sheet(sheet.name, false, part++, sheet.mesh);
   const std::vector<Vec3> none(vertices_, Vec3::Zero());
   loads_ = {none, none};
 }
 
-void Structure::add_sheet(const std::string& name, bool deforms, int part, const surface::TriangleMesh& mesh)
+void Structure::add_sheet(const std::string& name, bool deforms, int part, const surface::TriangleMesh& reference)
 {
-  sheets_.push_back({.name = name,
-                     .deforms = deforms,
-                     .part = part,
-                     .first_vertex = vertices_,
-                     .vertices = mesh.n_vertices(),
-                     .first_triangle = static_cast<int>(triangles_.size()),
-                     .triangles = mesh.n_triangles()});
-  for (const auto& t : mesh.triangles)
+  for (const auto& t : reference.triangles)
     triangles_.push_back({t[0] + vertices_, t[1] + vertices_, t[2] + vertices_});
-  vertices_ += mesh.n_vertices();
-}
-
-Eigen::VectorXd Structure::segment(const Eigen::VectorXd& d, std::size_t shell) const
-{
-  return d.segment(3 * sheets_[shell].first_vertex, 3 * sheets_[shell].vertices);
+  SheetRange sheet{.name = name,
+                   .deforms = deforms,
+                   .part = part,
+                   .reference = reference,
+                   .first_vertex = vertices_,
+                   .vertices = reference.n_vertices(),
+                   .first_triangle = static_cast<int>(triangles_.size()) - reference.n_triangles(),
+                   .triangles = reference.n_triangles()};
+  vertices_ += sheet.vertices;
+  sheets_.push_back(std::move(sheet));
 }
 
 Eigen::VectorXd Structure::predict(const TimeStep& step) const
 {
-  Eigen::VectorXd d(unknowns_);
-  for (std::size_t s = 0; s < shells_.size(); ++s)
-    d.segment(3 * sheets_[s].first_vertex, 3 * sheets_[s].vertices) = shells_[s].dynamics->predicted_positions(step.dt);
-  return d;
+  return shells_.dynamics ? shells_.dynamics->predicted_positions(step.dt) : Eigen::VectorXd();
 }
 
 immersed::SheetMotion Structure::motion(const Eigen::VectorXd& d, const TimeStep& step) const
@@ -84,8 +90,8 @@ immersed::SheetMotion Structure::motion(const Eigen::VectorXd& d, const TimeStep
   immersed::SheetMotion motion;
   motion.triangles = triangles_;
   append(motion.position, d);
-  for (std::size_t s = 0; s < shells_.size(); ++s) {
-    const shell::Kinematics k = shells_[s].dynamics->kinematics(segment(d, s), step.dt);
+  if (shells_.dynamics) {
+    const shell::Kinematics k = shells_.dynamics->kinematics(d, step.dt);
     append(motion.velocity, k.v);
     append(motion.acceleration, k.a);
   }
@@ -105,36 +111,34 @@ std::vector<Vec3> Structure::velocity(const Eigen::VectorXd& d, const TimeStep& 
   return motion(d, step).velocity;
 }
 
-/// Forces of the flow on one sheet, x y z of each vertex.
-Eigen::VectorXd Structure::force_on(const SheetRange& sheet) const
+/// Forces of the flow on the shells, x y z of each vertex.
+Eigen::VectorXd Structure::forces_on_shells() const
 {
-  Eigen::VectorXd force(3 * sheet.vertices);
-  for (int v = 0; v < sheet.vertices; ++v)
-    force.segment<3>(3 * v) = loads_.force(sheet.first_vertex + v);
+  Eigen::VectorXd force(3 * shells_.shell->n_vertices());
+  for (int v = 0; v < shells_.shell->n_vertices(); ++v)
+    force.segment<3>(3 * v) = loads_.force(v);
   return force;
 }
 
 Eigen::VectorXd Structure::solve(const TimeStep& step, const immersed::SheetLoads& loads, const Eigen::VectorXd& d)
 {
   loads_ = loads;
-  Eigen::VectorXd image(unknowns_);
-  for (std::size_t s = 0; s < shells_.size(); ++s)
-    image.segment(3 * sheets_[s].first_vertex, 3 * sheets_[s].vertices) =
-        shells_[s].dynamics->solve(step.t_new, step.dt, force_on(sheets_[s]), segment(d, s)).positions;
-  return image;
+  if (!shells_.dynamics)
+    return d;
+  return shells_.dynamics->solve(step.t_new, step.dt, forces_on_shells(), d).positions;
 }
 
 void Structure::accept(const TimeStep& step, const Eigen::VectorXd& d)
 {
-  for (std::size_t s = 0; s < shells_.size(); ++s)
-    sharp_folds_ += shells_[s].dynamics->accept(segment(d, s), step.t_new, step.dt, force_on(sheets_[s])).n_sharp;
+  if (shells_.dynamics)
+    sharp_folds_ += shells_.dynamics->accept(d, step.t_new, step.dt, forces_on_shells()).n_sharp;
 }
 
 std::vector<Vec3> Structure::accepted_positions(double t) const
 {
   std::vector<Vec3> positions;
-  for (const ShellPart& part : shells_)
-    append(positions, part.dynamics->accepted().x);
+  if (shells_.dynamics)
+    append(positions, shells_.dynamics->accepted().x);
   for (const RigidSheet& sheet : rigid_)
     for (const Vec3& x_0 : sheet.mesh.vertices)
       positions.push_back(sheet.moves ? sheet.position(x_0, t) : x_0);
@@ -144,8 +148,8 @@ std::vector<Vec3> Structure::accepted_positions(double t) const
 std::vector<Vec3> Structure::accepted_velocities(double t, double dt) const
 {
   std::vector<Vec3> velocities;
-  for (const ShellPart& part : shells_)
-    append(velocities, part.dynamics->accepted().v);
+  if (shells_.dynamics)
+    append(velocities, shells_.dynamics->accepted().v);
   for (const RigidSheet& sheet : rigid_)
     for (const Vec3& x_0 : sheet.mesh.vertices)
       velocities.push_back(sheet.moves ? rates(sheet, x_0, t, dt).velocity : Vec3(Vec3::Zero()));
@@ -159,24 +163,15 @@ std::string Structure::place_of(const Eigen::VectorXd& d) const
     if (!(std::abs(d[n]) <= std::abs(d[worst])))
       worst = n;
   const int vertex = static_cast<int>(worst / 3);
-  const auto sheet = std::find_if(sheets_.begin(), sheets_.end(),
-                                  [vertex](const SheetRange& s) { return vertex < s.first_vertex + s.vertices; });
-  const Vec3 x = shells_[sheet->part].dynamics->accepted().x.segment<3>(3 * (vertex - sheet->first_vertex));
-  return fmt::format("vertex {} of shell '{}' at ({:.4g}, {:.4g}, {:.4g})", vertex - sheet->first_vertex, sheet->name,
+  const shell::PieceRange& piece = shells_.shell->piece_of_vertex(vertex);
+  const Vec3 x = shells_.dynamics->accepted().x.segment<3>(3 * vertex);
+  return fmt::format("vertex {} of shell '{}' at ({:.4g}, {:.4g}, {:.4g})", vertex - piece.first_vertex, piece.name,
                      x[0], x[1], x[2]);
 }
 
 shell::EnergyLedger Structure::energy() const
 {
-  shell::EnergyLedger sum;
-  for (const ShellPart& part : shells_) {
-    const shell::EnergyLedger& e = part.dynamics->ledger();
-    sum.kinetic += e.kinetic;
-    sum.elastic += e.elastic;
-    sum.damping_work += e.damping_work;
-    sum.external_work += e.external_work;
-  }
-  return sum;
+  return shells_.dynamics ? shells_.dynamics->ledger() : shell::EnergyLedger{};
 }
 
 }  // namespace luff::simulation

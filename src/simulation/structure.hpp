@@ -18,8 +18,8 @@
 
 namespace luff::simulation {
 
-/// A shell and its motion.
-struct ShellPart {
+/// All shells, as pieces that are solved together, and their motion. Both null where there is none.
+struct Shells {
   std::unique_ptr<shell::Shell> shell;
   std::unique_ptr<shell::Dynamics> dynamics;
 };
@@ -36,7 +36,8 @@ struct RigidSheet {
 struct SheetRange {
   std::string name;
   bool deforms = false;
-  int part = 0;  ///< index among the shells or the rigid sheets
+  int part = 0;                     ///< index among the shells or the rigid sheets
+  surface::TriangleMesh reference;  ///< of a shell; at t = 0 of a rigid sheet
   int first_vertex = 0;
   int vertices = 0;
   int first_triangle = 0;
@@ -47,7 +48,7 @@ struct SheetRange {
 /// follow from it through Newmark, so that both stay consistent.
 class Structure {
  public:
-  Structure(std::vector<ShellPart> shells, std::vector<RigidSheet> rigid);
+  Structure(Shells shells, std::vector<RigidSheet> rigid);
 
   /// d^0, extrapolated to the end of the step.
   [[nodiscard]] Eigen::VectorXd predict(const TimeStep& step) const;
@@ -63,9 +64,7 @@ class Structure {
   void accept(const TimeStep& step, const Eigen::VectorXd& d);
 
   [[nodiscard]] const std::vector<SheetRange>& sheets() const { return sheets_; }
-  [[nodiscard]] const ShellPart& shell(int part) const { return shells_[part]; }
-  [[nodiscard]] const std::vector<ShellPart>& shells() const { return shells_; }
-  [[nodiscard]] const RigidSheet& rigid(int part) const { return rigid_[part]; }
+  [[nodiscard]] const Shells& shells() const { return shells_; }
   [[nodiscard]] int vertices() const { return vertices_; }
   [[nodiscard]] const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
   /// What the flow did to each vertex of all sheets in the last solve().
@@ -77,21 +76,19 @@ class Structure {
   [[nodiscard]] double length() const { return length_; }
   /// The vertex with the largest component of an interface vector, or the first that is no number, in words.
   [[nodiscard]] std::string place_of(const Eigen::VectorXd& d) const;
-  /// Sum over the shells.
+  /// Of all shells together.
   [[nodiscard]] shell::EnergyLedger energy() const;
   [[nodiscard]] long sharp_folds() const { return sharp_folds_; }
 
  private:
-  void add_sheet(const std::string& name, bool deforms, int part, const surface::TriangleMesh& mesh);
-  [[nodiscard]] Eigen::VectorXd force_on(const SheetRange& sheet) const;
-  [[nodiscard]] Eigen::VectorXd segment(const Eigen::VectorXd& d, std::size_t shell) const;
+  void add_sheet(const std::string& name, bool deforms, int part, const surface::TriangleMesh& reference);
+  [[nodiscard]] Eigen::VectorXd forces_on_shells() const;
 
-  std::vector<ShellPart> shells_;
+  Shells shells_;
   std::vector<RigidSheet> rigid_;
   std::vector<SheetRange> sheets_;
   std::vector<std::array<int, 3>> triangles_;
   int vertices_ = 0;
-  Eigen::Index unknowns_ = 0;
   double length_ = 1.0;
   immersed::SheetLoads loads_;
   long sharp_folds_ = 0;

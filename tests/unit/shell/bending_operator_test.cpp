@@ -13,7 +13,7 @@
 namespace luff::shell {
 namespace {
 
-const Properties properties{.thickness = 0.01, .density = 1, .young = 1e6, .poisson = 0.3};
+const Properties properties{.thickness = 0.01, .density = 1, .material = SaintVenantKirchhoff{1e6, 0.3}};
 
 TEST(BendingOperator, WeightsVanishOnAffineMaps)
 {

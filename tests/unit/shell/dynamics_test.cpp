@@ -28,8 +28,7 @@ struct Flag {
         shell(mesh,
               {.thickness = 0.01 * u.L,
                .density = 100 * u.M / (u.L * u.L * u.L),
-               .young = 1e6 * u.M / (u.L * u.T * u.T),
-               .poisson = 0.4,
+               .material = SaintVenantKirchhoff{1e6 * u.M / (u.L * u.T * u.T), 0.4},
                .damping_mass = damping / u.T,
                .damping_stiffness = 1e-3 * damping * u.T,
                .gravity = Vec3(0, 0.3, -1) * u.L / (u.T * u.T)},
@@ -186,7 +185,7 @@ TEST(Dynamics, ShellFarFromTheOriginStopsAtItsRoundOff)
   const Flag flag;
   surface::TriangleMesh far_mesh = flag.mesh;
   surface::translate(far_mesh, Vec3(1e7, 0, 0));
-  const Shell far(far_mesh, flag.shell.properties(),
+  const Shell far(far_mesh, flag.shell.pieces()[0].properties,
                   {{.kind = SupportKind::Clamped,
                     .vertices = test::vertices_where(far_mesh, [](auto& X) { return X.x() == 1e7; })}});
   Dynamics dynamics(far, flag.loads());
@@ -233,7 +232,7 @@ TEST(Dynamics, ForcesThatAreNotNumbersStopTheRun)
 TEST(Dynamics, SharpFoldStopsTheRunAndKeepsTheState)
 {
   const surface::TriangleMesh mesh = test::sheet(1, 0.5, 6, 3, surface::Pattern::Diagonal);
-  const Shell shell(mesh, {.thickness = 0.01, .density = 1, .young = 1, .poisson = 0.3}, {}, "flag");
+  const Shell shell(mesh, {.thickness = 0.01, .density = 1, .material = SaintVenantKirchhoff{1, 0.3}}, {}, "flag");
   Dynamics dynamics(shell, {});
   // Folded along the line of edges x = 1/2, to a slope of 10, by 84.29 degrees.
   Eigen::VectorXd folded = shell.reference_positions();
@@ -258,14 +257,14 @@ TEST(Dynamics, SharpFoldStopsTheRunAndKeepsTheState)
 TEST(Dynamics, FoldsOfTheReferenceDontCount)
 {
   const surface::TriangleMesh mesh = test::curved_sheet();
-  const Shell shell(mesh, {.thickness = 0.1, .density = 1, .young = 1, .poisson = 0}, {});
+  const Shell shell(mesh, {.thickness = 0.1, .density = 1, .material = SaintVenantKirchhoff{1, 0}}, {});
   EXPECT_LT(folds(shell, shell.reference_positions()).largest, 1e-10);
 }
 
 TEST(Dynamics, MasslessShellIsRefused)
 {
   const surface::TriangleMesh mesh = test::curved_sheet();
-  const Shell shell(mesh, {.thickness = 0.1, .density = 0, .young = 1, .poisson = 0}, {});
+  const Shell shell(mesh, {.thickness = 0.1, .density = 0, .material = SaintVenantKirchhoff{1, 0}}, {});
   EXPECT_THROW(Dynamics(shell, {}), InputError);
 }
 
@@ -274,7 +273,8 @@ TEST(Statics, ShellThatCanMoveRigidlyIsRefused)
   const surface::TriangleMesh mesh = test::sheet(1, 1, 3, 3);
   const std::vector<int> edge = test::vertices_where(mesh, [](auto& X) { return X.x() == 0; });
   const auto refused = [&](const std::vector<Support>& supports) {
-    const Shell shell(mesh, {.thickness = 1e-4, .density = 1, .young = 1, .poisson = 0.3}, supports, "flag");
+    const Shell shell(mesh, {.thickness = 1e-4, .density = 1, .material = SaintVenantKirchhoff{1, 0.3}}, supports,
+                      "flag");
     try {
       solve_static(shell, {}, {.steps = 1});
     } catch (const InputError& error) {

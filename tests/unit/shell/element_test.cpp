@@ -14,7 +14,7 @@ using luff::test::curved_sheet;
 using luff::test::random_vector;
 using luff::test::vertices_where;
 
-const Properties soft{.thickness = 0.1, .density = 1, .young = 1e3, .poisson = 0.3};
+const Properties soft{.thickness = 0.1, .density = 1, .material = SaintVenantKirchhoff{1e3, 0.3}};
 
 /// Clamped at x = 0, symmetric at y = 0, hinged along part of x = max, free elsewhere: every kind of edge, and corners
 /// where two of them meet.

@@ -11,7 +11,8 @@
 namespace luff::shell {
 namespace {
 
-const Properties properties{.thickness = 0.1, .density = 3, .young = 1e3, .poisson = 0.3, .gravity = Vec3(0, 0, -2)};
+const Properties properties{
+    .thickness = 0.1, .density = 3, .material = SaintVenantKirchhoff{1e3, 0.3}, .gravity = Vec3(0, 0, -2)};
 
 Vec3 total(const Eigen::VectorXd& nodal)
 {

@@ -12,7 +12,7 @@
 namespace luff::shell {
 namespace {
 
-const Properties strip_properties{.thickness = 0.01, .density = 1, .young = 1e6, .poisson = 0};
+const Properties strip_properties{.thickness = 0.01, .density = 1, .material = SaintVenantKirchhoff{1e6, 0}};
 
 std::vector<int> at_x(const surface::TriangleMesh& mesh, double x)
 {
@@ -108,8 +108,8 @@ TEST(Support, BadPropertiesAreRefusedWithTheirRange)
   p.thickness = -0.01;
   EXPECT_EQ(message(p), "shell 'flag': thickness = -0.01 must be greater than 0");
   p = strip_properties;
-  p.poisson = 0.7;
-  EXPECT_EQ(message(p), "shell 'flag': poisson = 0.7 must be greater than -1 and at most 0.5");
+  p.material = SaintVenantKirchhoff{1e6, 0.7};
+  EXPECT_EQ(message(p), "shell 'flag': material.poisson = 0.7 must be greater than -1 and at most 0.5");
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ surface::TriangleMesh strip()
 }
 
 /// A strip held at x = 0 and pulled down at its other end.
-ShellPart pulled_strip()
+Shells pulled_strip()
 {
   const surface::TriangleMesh mesh = strip();
   shell::Support held{.kind = shell::SupportKind::Clamped};
@@ -27,9 +27,9 @@ ShellPart pulled_strip()
     if (mesh.vertices[v].x() == 1.0)
       end.push_back(v);
   }
-  ShellPart part;
+  Shells part;
   part.shell = std::make_unique<shell::Shell>(
-      mesh, shell::Properties{.thickness = 0.05, .density = 2.0, .young = 1000.0, .poisson = 0.3},
+      mesh, shell::Properties{.thickness = 0.05, .density = 2.0, .material = shell::SaintVenantKirchhoff{1000.0, 0.3}},
       std::vector<shell::Support>{held}, "strip");
   const shell::PointForce pull{end, [](const Vec3&, double t) { return Vec3(0, 0, -0.01 - t); }};
   part.dynamics = std::make_unique<shell::Dynamics>(*part.shell, std::vector<shell::Load>{pull});
@@ -43,9 +43,7 @@ RigidSheet moving_sheet(std::function<Vec3(const Vec3&, double)> position)
 
 Structure strip_and_sheet(std::function<Vec3(const Vec3&, double)> position)
 {
-  std::vector<ShellPart> shells;
-  shells.push_back(pulled_strip());
-  return Structure(std::move(shells), {moving_sheet(std::move(position))});
+  return Structure(pulled_strip(), {moving_sheet(std::move(position))});
 }
 
 immersed::SheetLoads no_loads(const Structure& structure)
@@ -90,7 +88,7 @@ TEST(AStructure, PredictsWithVelocityAndAccelerationOfTheAcceptedState)
 {
   Structure structure = strip_and_sheet(still);
   const TimeStep next = advance(structure, 0.01, 5);
-  const shell::State& now = structure.shell(0).dynamics->accepted();
+  const shell::State& now = structure.shells().dynamics->accepted();
   const Eigen::VectorXd expected = now.x + next.dt * now.v + 0.5 * next.dt * next.dt * now.a;
   EXPECT_LT((structure.predict(next) - expected).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_GT((expected - now.x).cwiseAbs().maxCoeff(), 1e-4) << "the strip moves";
@@ -100,7 +98,7 @@ TEST(AStructure, GivesPositionsTheVelocityOfNewmark)
 {
   Structure structure = strip_and_sheet(still);
   const TimeStep next = advance(structure, 0.01, 5);
-  const shell::State now = structure.shell(0).dynamics->accepted();
+  const shell::State now = structure.shells().dynamics->accepted();
   const Eigen::VectorXd d = structure.predict(next);
   const std::vector<Vec3> v = structure.velocity(d, next);
   for (int n = 0; n < 15; ++n) {

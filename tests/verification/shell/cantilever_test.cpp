@@ -34,7 +34,7 @@ std::vector<TipRow> published()
   return rows;
 }
 
-const Properties beam{.thickness = 0.1, .density = 1, .young = 1.2e6, .poisson = 0};
+const Properties beam{.thickness = 0.1, .density = 1, .material = SaintVenantKirchhoff{1.2e6, 0}};
 constexpr double end_force = 4;
 
 struct Cantilever {
@@ -94,7 +94,7 @@ TEST(Cantilever, NewtonConvergesQuadratically)
 {
   const surface::TriangleMesh mesh = test::sheet(1, 0.3, 8, 2);
   const Shell shell(
-      mesh, {.thickness = 0.3, .density = 1, .young = 1, .poisson = 0.3},
+      mesh, {.thickness = 0.3, .density = 1, .material = SaintVenantKirchhoff{1, 0.3}},
       {{.kind = SupportKind::Clamped, .vertices = test::vertices_where(mesh, [](auto& X) { return X.x() == 0; })}});
   const std::vector<int> tip = test::vertices_where(mesh, [](auto& X) { return X.x() == 1; });
   const StaticStep last =
@@ -159,7 +159,10 @@ TEST(Cantilever, ThinSheetUnderItsWeightIsReachedByHalvingLoadSteps)
   const double h = 1e-4;
   const Shell sheet(
       mesh,
-      {.thickness = h, .density = 1 / h, .young = 1e-2 / (h * h * h), .poisson = 0.3, .gravity = Vec3(0, 0, -0.01)},
+      {.thickness = h,
+       .density = 1 / h,
+       .material = SaintVenantKirchhoff{1e-2 / (h * h * h), 0.3},
+       .gravity = Vec3(0, 0, -0.01)},
       {{.kind = SupportKind::Clamped, .vertices = test::vertices_where(mesh, [](auto& X) { return X.x() == 0; })}});
   EXPECT_THROW(solve_static(sheet, {}, {.steps = 10, .max_halvings = 0}), RunError);
   const StaticStep whole = solve_static(sheet, {}, {.steps = 10});

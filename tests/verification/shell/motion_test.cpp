@@ -45,7 +45,8 @@ Vec3 angular_momentum(const Shell& shell, const State& state)
 // Translation, spin, bending and twist of large amplitude, nothing held, no damping.
 TEST(Motion, FreeFlightKeepsMomentumAndEnergy)
 {
-  const Shell shell(test::sheet(1, 0.7, 6, 4), {.thickness = 0.02, .density = 1, .young = 1e5, .poisson = 0.3}, {});
+  const Shell shell(test::sheet(1, 0.7, 6, 4),
+                    {.thickness = 0.02, .density = 1, .material = SaintVenantKirchhoff{1e5, 0.3}}, {});
   Eigen::VectorXd v0(3 * shell.n_vertices());
   for (int v = 0; v < shell.n_vertices(); ++v) {
     const Vec3 r = shell.reference().vertices[v] - Vec3(0.5, 0.35, 0);
@@ -75,8 +76,7 @@ struct Strip {
         shell(mesh,
               {.thickness = 0.01,
                .density = 1,
-               .young = 1e6,
-               .poisson = 0,
+               .material = SaintVenantKirchhoff{1e6, 0},
                .damping_mass = damping_mass,
                .damping_stiffness = damping_stiffness},
               {{.kind = SupportKind::Clamped,
@@ -129,7 +129,7 @@ TEST(Motion, PositionsAndVelocitiesAreSecondOrderInTime)
 {
   const surface::TriangleMesh mesh = test::sheet(1, 0.3, 6, 2);
   const Shell shell(
-      mesh, {.thickness = 0.1, .density = 1, .young = 1e4, .poisson = 0.3},
+      mesh, {.thickness = 0.1, .density = 1, .material = SaintVenantKirchhoff{1e4, 0.3}},
       {{.kind = SupportKind::Clamped, .vertices = test::vertices_where(mesh, [](auto& X) { return X.x() == 0; })}});
   Eigen::VectorXd v0 = Eigen::VectorXd::Zero(3 * mesh.n_vertices());
   for (int v = 0; v < mesh.n_vertices(); ++v)
@@ -172,7 +172,7 @@ TEST(Motion, LedgerClosesUnderGravityAndFluidForces)
 {
   const surface::TriangleMesh mesh = test::sheet(1, 0.2, 10, 2);
   const Shell shell(
-      mesh, {.thickness = 0.01, .density = 100, .young = 1e6, .poisson = 0.3, .gravity = Vec3(0, 0, -2)},
+      mesh, {.thickness = 0.01, .density = 100, .material = SaintVenantKirchhoff{1e6, 0.3}, .gravity = Vec3(0, 0, -2)},
       {{.kind = SupportKind::Hinged, .vertices = test::vertices_where(mesh, [](auto& X) { return X.x() == 0; })}});
   const auto closure = [&](double dt, int steps) {
     Dynamics dynamics(shell, {});
