@@ -25,6 +25,8 @@ void describe(Schema& s, SideOptions& side);
 // Surfaces that move in it (describe_structure.cpp).
 void describe(Schema& s, ShellOptions& shell);
 void describe(Schema& s, MeshOptions& mesh);
+void describe(Schema& s, AngleOptions& angle);
+void describe(Schema& s, PolarOptions& polar);
 void describe(Schema& s, RotateOptions& rotate);
 void describe(Schema& s, MaterialOptions& material);
 void describe(Schema& s, DampingOptions& damping);

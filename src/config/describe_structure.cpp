@@ -34,13 +34,6 @@ void describe_placement(Schema& s, PlacementOptions& placement)
   s.key("translate", placement.translate, {.doc = "Translation of the mesh; applied last.", .unit = "m"});
 }
 
-bool is_readable_mesh(const std::filesystem::path& file)
-{
-  std::string kind = file.extension();
-  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
-  return kind == ".stl" || kind == ".obj" || kind == ".ply" || kind == ".vtp";
-}
-
 }  // namespace
 
 void describe(Schema& s, ShellOptions& shell)
@@ -61,31 +54,6 @@ void describe(Schema& s, ShellOptions& shell)
   s.key("gravity", shell.gravity, {.doc = "Acceleration of gravity acting on the shell.", .unit = "m/s^2"});
   s.list("support", shell.supports, {.doc = "Vertices that are held; edges without support are free."});
   s.list("load", shell.loads, {.doc = "Loads besides gravity and the flow's."});
-}
-
-void describe(Schema& s, MeshOptions& mesh)
-{
-  s.mark(mesh.mark);
-  s.exactly_one_of({"shape", "file"});
-  s.key("shape", mesh.shape, {.doc = "Make the mesh: `rectangle`, the parallelogram of `a` and `b` at `origin`."});
-  s.when(mesh.shape == MeshShape::Rectangle, "`shape = \"rectangle\"`", [&] {
-    s.key("origin", mesh.origin, {.doc = "A corner.", .unit = "m", .required = true});
-    s.key("a", mesh.a, {.doc = "First side, from the corner.", .unit = "m", .required = true});
-    s.key("b", mesh.b,
-          {.doc = "Second side, from the corner; the normal points along a x b.", .unit = "m", .required = true});
-    s.key("divisions", mesh.divisions,
-          {.doc = "Squares along `a` and `b`, two triangles each.",
-           .range = at_least_one,
-           .required = true,
-           .scaling = Scaling::Count});
-    s.key(
-        "pattern", mesh.pattern,
-        {.doc = "`diagonal`: all squares are cut the same way; `alternating`: neighbours are cut the other way; "
-                "`irregular`: inner vertices are moved at random (alike in every run) and joined by Delaunay's rule."});
-    s.rule(mesh.a.cross(mesh.b).norm() > 0.0, "b", "must not be parallel to `a`, and neither may be zero");
-  });
-  s.key("file", mesh.file, {.doc = "Read the mesh from an STL, OBJ, PLY or VTP file."});
-  s.rule(!mesh.file || is_readable_mesh(*mesh.file), "file", "must end in .stl, .obj, .ply or .vtp");
 }
 
 void describe(Schema& s, RotateOptions& rotate)
@@ -146,27 +114,6 @@ void describe(Schema& s, LoadOptions& load)
         {.doc = "Moment per length of boundary edges about the direction that each has in the reference "
                 "configuration; raises the edge towards the normal and turns with it.",
          .unit = "N"});
-}
-
-void describe(Schema& s, WhereOptions& where)
-{
-  s.exactly_one_of({"edge", "box", "plane", "point"});
-  s.key("edge", where.edge, {.doc = "On the straight line between these two points.", .unit = "m"});
-  s.key("box", where.box, {.doc = "In the box with this lowest and this highest corner.", .unit = "m"});
-  s.table("plane", where.plane, {.doc = "On a plane."});
-  s.key("point", where.point, {.doc = "The one vertex nearest to this point.", .unit = "m"});
-  if (where.box)
-    s.rule(((*where.box)[0].array() <= (*where.box)[1].array()).all(), "box",
-           "must be [lowest corner, highest corner]");
-  if (where.edge)
-    s.rule((*where.edge)[0] != (*where.edge)[1], "edge", "must have two different end points");
-}
-
-void describe(Schema& s, PlaneOptions& plane)
-{
-  s.key("point", plane.point, {.doc = "A point of the plane.", .unit = "m", .required = true});
-  s.key("normal", plane.normal, {.doc = "Its normal, of any length.", .required = true});
-  s.rule(!plane.normal.isZero(0.0), "normal", "must not be zero");
 }
 
 void describe(Schema& s, BodyOptions& body)

@@ -97,23 +97,57 @@ struct BoundaryOptions {
 
 // ---- shells and bodies -----------------------------------------------------------------------------------------
 
-enum class MeshShape { Rectangle };
-enum class MeshPattern { Diagonal, Alternating, Irregular };
+enum class MeshShape { Rectangle, Disk, Annulus, Cylinder, SphereCap };
+enum class MeshPattern { Diagonal, Alternating, Irregular, Delaunay };
 
-/// A parallelogram origin + s a + t b, 0 <= s, t <= 1, or the triangles of a file: exactly one of `shape` and `file`.
+/// Part of a circle about an axis, degrees.
+struct AngleOptions {
+  double from = 0.0;
+  double to = 360.0;
+
+  bool operator==(const AngleOptions&) const = default;
+};
+
+/// Part of a half-circle from pole to pole, degrees from the axis.
+struct PolarOptions {
+  double from = 0.0;
+  double to = 90.0;
+
+  bool operator==(const PolarOptions&) const = default;
+};
+
+/// A surface made from a few numbers (see surface/generators.hpp), or the triangles of a file: exactly one of `shape`
+/// and `file`.
 struct MeshOptions {
   std::optional<MeshShape> shape;
-  Vec3 origin = Vec3::Zero();
+  Vec3 origin = Vec3::Zero();  ///< Rectangle: parallelogram origin + s a + t b, 0 <= s, t <= 1
   Vec3 a = Vec3::Zero();
   Vec3 b = Vec3::Zero();
-  std::array<int, 2> divisions{0, 0};  ///< along a and b
+  Vec3 centre = Vec3::Zero();  ///< the other shapes
+  Vec3 axis = Vec3::UnitZ();
+  std::optional<Vec3> start;  ///< where angles about the axis start
+  double radius = 0.0;
+  double inner_radius = 0.0;  ///< Annulus
+  double length = 0.0;        ///< Cylinder
+  AngleOptions angle;
+  PolarOptions polar;                  ///< SphereCap
+  std::array<int, 2> divisions{0, 0};  ///< along a and b; around and across
+  int rings = 0;                       ///< Disk, SphereCap with a pole
   MeshPattern pattern = MeshPattern::Diagonal;
+  int seed = 1;
 
   std::optional<std::filesystem::path> file;  ///< absolute once read
   Mark mark = {};
 
   bool operator==(const MeshOptions&) const = default;
 };
+
+/// Made of rings about a pole, not of rows and columns.
+inline bool has_rings(const MeshOptions& mesh)
+{
+  return mesh.shape == MeshShape::Disk ||
+         (mesh.shape == MeshShape::SphereCap && (mesh.polar.from <= 0.0 || mesh.polar.to >= 180.0));
+}
 
 struct RotateOptions {
   Vec3 axis = Vec3::Zero();

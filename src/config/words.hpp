@@ -40,14 +40,20 @@ inline Words<SideType> words(SideType)
 
 inline Words<MeshShape> words(MeshShape)
 {
-  return {{{MeshShape::Rectangle, "rectangle"}}, {"disk", "cylinder", "valve"}};
+  return {{{MeshShape::Rectangle, "rectangle"},
+           {MeshShape::Disk, "disk"},
+           {MeshShape::Annulus, "annulus"},
+           {MeshShape::Cylinder, "cylinder"},
+           {MeshShape::SphereCap, "sphere-cap"}},
+          {"valve"}};
 }
 
 inline Words<MeshPattern> words(MeshPattern)
 {
   return {{{MeshPattern::Diagonal, "diagonal"},
            {MeshPattern::Alternating, "alternating"},
-           {MeshPattern::Irregular, "irregular"}}};
+           {MeshPattern::Irregular, "irregular"},
+           {MeshPattern::Delaunay, "delaunay"}}};
 }
 
 inline Words<MaterialModel> words(MaterialModel)

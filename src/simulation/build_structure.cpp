@@ -5,9 +5,9 @@
 
 #include "core/error.hpp"
 #include "simulation/build.hpp"
+#include "simulation/build_mesh.hpp"
 #include "simulation/refusal.hpp"
 #include "surface/generators.hpp"
-#include "surface/readers.hpp"
 #include "surface/selection.hpp"
 #include "surface/validation.hpp"
 
@@ -15,34 +15,10 @@ namespace luff::simulation {
 
 namespace {
 
-surface::Pattern pattern_of(config::MeshPattern pattern)
-{
-  switch (pattern) {
-    case config::MeshPattern::Alternating:
-      return surface::Pattern::Alternating;
-    case config::MeshPattern::Irregular:
-      return surface::Pattern::Irregular;
-    case config::MeshPattern::Diagonal:
-      break;
-  }
-  return surface::Pattern::Diagonal;
-}
-
-surface::TriangleMesh unplaced_mesh(const config::MeshOptions& mesh)
-{
-  if (mesh.file)
-    return surface::read_mesh(*mesh.file);
-  return surface::rectangle({.origin = mesh.origin,
-                             .a = mesh.a,
-                             .b = mesh.b,
-                             .divisions = mesh.divisions,
-                             .pattern = pattern_of(mesh.pattern)});
-}
-
 surface::TriangleMesh placed_mesh(const config::MeshOptions& mesh, const config::PlacementOptions& placement,
                                   const std::string& owner)
 {
-  surface::TriangleMesh result = unplaced_mesh(mesh);
+  surface::TriangleMesh result = build_unplaced(mesh);
   surface::scale(result, Vec3::Constant(placement.scale));
   if (placement.rotate)
     surface::rotate(result, placement.rotate->axis, placement.rotate->angle, placement.rotate->about);

@@ -109,6 +109,33 @@ const BadInput values[] = {
      "case.toml:35: body.motion.translation[0] = \"cos(x)\" may change with t, but not with x, y, z"},
 };
 
+constexpr auto flag_mesh =
+    "shape = \"rectangle\", origin = [0, 0, -0.5], a = [1, 0, 0], b = [0, 0, 1], divisions = [20, 10]";
+
+const BadInput meshes[] = {
+    {"AShapeLacksItsRadius", flag_mesh, "shape = \"disk\", rings = 4",
+     "case.toml:22: shell.mesh.radius is missing: give a number > 0"},
+    {"ADiskHasDivisions", flag_mesh, "shape = \"disk\", radius = 1, rings = 4, divisions = [4, 4]",
+     "case.toml:22: shell.mesh.divisions goes only with `rectangle`, `annulus`, `cylinder`, or `sphere-cap` without a "
+     "pole"},
+    {"ACylinderHasRings", flag_mesh, "shape = \"cylinder\", radius = 1, length = 2, divisions = [4, 4], rings = 4",
+     "case.toml:22: shell.mesh.rings goes only with `disk`, or `sphere-cap` with a pole"},
+    {"AZoneWithAPoleLacksRings", flag_mesh, "shape = \"sphere-cap\", radius = 1, polar = { to = 90 }",
+     "case.toml:22: shell.mesh.rings is missing: give an integer >= 1"},
+    {"AZoneGoesBeyondThePole", flag_mesh, "shape = \"sphere-cap\", radius = 1, polar = { to = 190 }, rings = 4",
+     "case.toml:22: shell.mesh.polar.to = 190 must be a number in [0, 180]"},
+    {"ASectorIsMoreThanACircle", flag_mesh, "shape = \"disk\", radius = 1, angle = { from = -10, to = 360 }, rings = 4",
+     "case.toml:22: shell.mesh.angle.to = 360 must be above `from`, by 360 at most"},
+    {"AHoleIsLargerThanItsAnnulus", flag_mesh, "shape = \"annulus\", radius = 1, inner_radius = 2, divisions = [12, 3]",
+     "case.toml:22: shell.mesh.inner_radius = 2 must be less than `radius`"},
+    {"ADiskIsCutInAlternation", flag_mesh, "shape = \"disk\", radius = 1, rings = 4, pattern = \"alternating\"",
+     "case.toml:22: shell.mesh.pattern = \"alternating\" must be another one with `rings`"},
+    {"AnglesStartAlongTheAxis", flag_mesh, "shape = \"disk\", radius = 1, rings = 4, start = [0, 0, 2]",
+     "case.toml:22: shell.mesh.start must not be zero or parallel to `axis`"},
+    {"ARegularPatternHasASeed", flag_mesh, "shape = \"disk\", radius = 1, rings = 4, seed = 2",
+     "case.toml:22: shell.mesh.seed goes only with `pattern = \"irregular\"` or `\"delaunay\"`"},
+};
+
 const BadInput files[] = {
     {"AMeshFileIsMissing",
      "shape = \"rectangle\", origin = [0, 0, -0.5], a = [1, 0, 0], b = [0, 0, 1], divisions = [20, 10]",
@@ -222,6 +249,7 @@ INSTANTIATE_TEST_SUITE_P(Keys, BadInputIsToldWithFileLineKeyAndRemedy, testing::
 INSTANTIATE_TEST_SUITE_P(Values, BadInputIsToldWithFileLineKeyAndRemedy, testing::ValuesIn(values), name_of);
 INSTANTIATE_TEST_SUITE_P(Files, BadInputIsToldWithFileLineKeyAndRemedy, testing::ValuesIn(files), name_of);
 INSTANTIATE_TEST_SUITE_P(Rules, BadInputIsToldWithFileLineKeyAndRemedy, testing::ValuesIn(rules), name_of);
+INSTANTIATE_TEST_SUITE_P(Meshes, BadInputIsToldWithFileLineKeyAndRemedy, testing::ValuesIn(meshes), name_of);
 INSTANTIATE_TEST_SUITE_P(NotInThisVersion, BadInputIsToldWithFileLineKeyAndRemedy, testing::ValuesIn(not_yet), name_of);
 
 TEST(BadCaseFiles, AreComplainedAboutAtOnceInTheOrderOfTheFile)

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a layout to triangles on a surface.
+#include "surface/pattern.hpp"
+
+#include "core/error.hpp"
+#include "surface/relaxation.hpp"
+
+namespace luff::surface {
+
+namespace {
+
+void check(const Layout& layout, const Cut& cut, std::string_view shape)
+{
+  if (!(cut.displacement >= 0 && cut.displacement < 0.45))
+    fail_input("{}: displacement = {} must be in [0, 0.45): beyond it triangles turn over", shape, cut.displacement);
+  if (cut.pattern == Pattern::Alternating && layout.quadrilaterals.empty())
+    fail_input("{}: pattern = \"alternating\" needs rows and columns; about a pole take another one", shape);
+}
+
+TriangleMesh placed(const Layout& layout, const ParametricSurface& surface, const Cut& cut, Random& random)
+{
+  TriangleMesh mesh;
+  for (const Node& node : layout.nodes) {
+    double u = node.u, v = node.v;
+    if (node.inner && cut.pattern == Pattern::Irregular) {
+      u += cut.displacement * random.symmetric() * node.du;
+      v += cut.displacement * random.symmetric() * node.dv;
+    }
+    mesh.vertices.push_back(surface.point(u, v));
+  }
+  return mesh;
+}
+
+bool along_first_diagonal(const Cut& cut, const Node& node, Random& random)
+{
+  switch (cut.pattern) {
+    case Pattern::Alternating:
+      return (static_cast<long>(node.u) + static_cast<long>(node.v)) % 2 == 0;
+    case Pattern::Irregular:
+      return random.symmetric() > 0;
+    case Pattern::Diagonal:
+    case Pattern::Delaunay:
+      break;
+  }
+  return true;
+}
+
+void join(const Layout& layout, const Cut& cut, Random& random, TriangleMesh& mesh)
+{
+  mesh.triangles = layout.triangles;
+  for (const auto& [p, q, r, s] : layout.quadrilaterals) {
+    if (along_first_diagonal(cut, layout.nodes[p], random)) {
+      mesh.triangles.push_back({p, q, r});
+      mesh.triangles.push_back({p, r, s});
+    } else {
+      mesh.triangles.push_back({p, q, s});
+      mesh.triangles.push_back({q, r, s});
+    }
+  }
+}
+
+}  // namespace
+
+ParametricSurface plane(std::function<Vec3(double, double)> point, const Vec3& origin, const Vec3& normal)
+{
+  const Vec3 n = normal.normalized();
+  return {std::move(point), [origin, n](const Vec3& x) -> Vec3 { return x - n.dot(x - origin) * n; },
+          [n](const Vec3&) { return n; }};
+}
+
+TriangleMesh triangulate(const Layout& layout, const ParametricSurface& surface, const Cut& cut, std::string_view shape)
+{
+  check(layout, cut, shape);
+  Random random(cut.seed);
+  TriangleMesh mesh = placed(layout, surface, cut, random);
+  join(layout, cut, random, mesh);
+  if (cut.pattern == Pattern::Irregular)
+    flip_to_delaunay(mesh, surface);
+  if (cut.pattern == Pattern::Delaunay) {
+    std::vector<bool> inner;
+    for (const Node& node : layout.nodes)
+      inner.push_back(node.inner);
+    spread(mesh, surface, inner, random);
+  }
+  return mesh;
+}
+
+}  // namespace luff::surface
