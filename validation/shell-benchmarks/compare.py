@@ -1,0 +1,216 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the shell benchmarks of cases/shell-benchmarks and compares them with what is published.
+
+Usage: validation/shell-benchmarks/compare.py [NAME...] [--out DIR] [--list]
+
+Each benchmark runs on the meshes listed here. A table is printed: where the run ended, the largest difference over the
+published points as a part of the largest published value, and the last published point with what was computed there. Writes
+DIR/<name>.png (default validation/shell-benchmarks/results). A finished run in DIR is used again.
+"""
+import argparse
+import csv
+import json
+import math
+import subprocess
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+here = Path(__file__).resolve().parent
+root = here.parent.parent
+
+
+@dataclass
+class Curve:
+    """A displacement of a probe against the load factor, `scale` times the component, and the published one."""
+
+    label: str
+    probe: str
+    component: str
+    scale: float
+    published: list  # of (load factor, displacement)
+
+
+@dataclass
+class Benchmark:
+    curves: list
+    meshes: dict  # label -> settings of the case
+    settings: dict = field(default_factory=dict)
+
+
+def table(file, column):
+    with open(root / "validation" / "data" / file) as lines:
+        rows = csv.DictReader(line for line in lines if not line.startswith("#"))
+        return [(float(row["load_fraction"]), float(row[column])) for row in rows]
+
+
+def single(name):
+    with open(root / "validation" / "data" / "linear_shells.csv") as lines:
+        rows = csv.DictReader(line for line in lines if not line.startswith("#"))
+        return [(1.0, float(row["displacement"])) for row in rows if row["benchmark"] == name]
+
+
+def roll_up(component):
+    points = [0.1 * n for n in range(1, 11)]
+    exact = {"x": lambda t: 12 * (1 - math.sin(t) / t), "z": lambda t: 12 * (1 - math.cos(t)) / t}[component]
+    return [(p, exact(2 * math.pi * p)) for p in points]
+
+
+def meshes(shell, *choices):
+    """Settings for (pattern, divisions) pairs."""
+    return {
+        f"{pattern} {a} x {b}": {
+            f"shell.{shell}.mesh.pattern": f'"{pattern}"',
+            f"shell.{shell}.mesh.divisions": f"[{a}, {b}]",
+        }
+        for pattern, a, b in choices
+    }
+
+
+def refined(shell, patterns, sizes):
+    return meshes(shell, *((pattern, n, n) for pattern in patterns for n in sizes))
+
+
+BENCHMARKS = {
+    "plate-supported": Benchmark(
+        [Curve("w", "centre", "z", 1, single("plate-supported"))],
+        refined("plate", ("diagonal", "irregular"), (8, 16, 32)),
+    ),
+    "plate-clamped": Benchmark(
+        [Curve("w", "centre", "z", 1, single("plate-clamped"))],
+        refined("plate", ("diagonal", "irregular"), (8, 16, 32)),
+    ),
+    "scordelis-lo": Benchmark(
+        [Curve("-w", "edge", "z", -1, single("scordelis-lo"))],
+        refined("roof", ("diagonal", "irregular"), (16, 32, 64)),
+    ),
+    "pinched-cylinder": Benchmark(
+        [Curve("-w", "force", "z", -1, single("pinched-cylinder"))],
+        refined("cylinder", ("diagonal", "irregular"), (32, 64, 96)),
+    ),
+    "hemisphere": Benchmark(
+        [Curve("out", "out", "x", 1, single("hemisphere")), Curve("in", "in", "y", -1, single("hemisphere"))],
+        refined("hemisphere", ("diagonal", "irregular"), (16, 32, 64)),
+    ),
+    "cantilever": Benchmark(
+        [
+            Curve("-u", "end", "x", -1, table("sze2004_cantilever_end_shear.csv", "minus_u")),
+            Curve("w", "end", "z", 1, table("sze2004_cantilever_end_shear.csv", "w")),
+        ],
+        meshes("strip", ("alternating", 32, 4), ("irregular", 32, 4), ("irregular", 64, 6)),
+    ),
+    "roll-up": Benchmark(
+        [Curve("-u", "end", "x", -1, roll_up("x")), Curve("w", "end", "z", 1, roll_up("z"))],
+        meshes("strip", ("alternating", 32, 2), ("alternating", 64, 3), ("irregular", 32, 2), ("irregular", 64, 3)),
+    ),
+    "hemisphere-large": Benchmark(
+        [
+            Curve("out", "out", "x", 1, table("sze2004_hemisphere_18deg_hole.csv", "V_A_out")),
+            Curve("in", "in", "y", -1, table("sze2004_hemisphere_18deg_hole.csv", "minus_U_B_in")),
+        ],
+        refined("hemisphere", ("diagonal", "irregular"), (16, 32, 64)),
+    ),
+}
+
+
+def case_file(name):
+    shelf = root / "cases" / "shell-benchmarks" / f"{name}.toml"
+    return shelf if shelf.exists() else root / "cases" / name / "case.toml"
+
+
+def run(name, settings, out):
+    """Runs unless finished before; a run that fails keeps what it reached."""
+    if not (out / "summary.json").exists():
+        command = [root / "luff", "run", case_file(name), "--out", out, "--threads", "1"]
+        for key, value in settings.items():
+            command += ["--set", f"{key}={value}"]
+        started = time.perf_counter()
+        with open(out.with_suffix(".log"), "w") as log:
+            subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, check=False)
+        out.with_suffix(".seconds").write_text(f"{time.perf_counter() - started:.1f}")
+    return json.loads((out / "summary.json").read_text()), float(out.with_suffix(".seconds").read_text())
+
+
+def path_of(curve, out):
+    """Load factors and displacements along the path that was followed, from the origin."""
+    with open(out / f"probe-{curve.probe}.csv") as file:
+        rows = list(csv.DictReader(file))
+    column = f"displacement_{curve.component} [length]"
+    path = [(0.0, 0.0)] + [(float(row["load_factor"]), curve.scale * float(row[column])) for row in rows]
+    return np.array(path)
+
+
+def computed_at(path, loads):
+    """Displacements where the load factor first reaches each of these; none where it never does."""
+    values = []
+    for load in loads:
+        reached = np.nonzero(path[:, 0] >= load * (1 - 1e-9))[0]
+        if len(reached) == 0:
+            values.append(math.nan)
+            continue
+        after = max(reached[0], 1)
+        (f0, u0), (f1, u1) = path[after - 1], path[after]
+        values.append(u1 if f1 == f0 else u0 + (u1 - u0) * (load - f0) / (f1 - f0))
+    return np.array(values)
+
+
+def report(name, mesh, curve, summary, seconds, out):
+    path = path_of(curve, out)
+    loads, published = np.array(curve.published).T
+    computed = computed_at(path, loads)
+    reached = ~np.isnan(computed)
+    worst = np.max(np.abs(computed - published)[reached]) / np.max(np.abs(published)) if reached.any() else math.nan
+    last = computed[-1]
+    print(
+        f"{name} | {mesh} | {curve.label} | {summary['state']} at {path[:, 0].max():.3g} | {100 * worst:.2f} % | "
+        f"{last:.5g} | {published[-1]:.5g} | {100 * (last - published[-1]) / np.max(np.abs(published)):+.2f} % | "
+        f"{seconds:.0f} s",
+        flush=True,
+    )
+    return path
+
+
+def compare(name, benchmark, out):
+    figure, axis = plt.subplots(figsize=(7, 5))
+    for number, (mesh, settings) in enumerate(benchmark.meshes.items()):
+        folder = out / name / mesh.replace(" ", "-")
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        summary, seconds = run(name, {**benchmark.settings, **settings}, folder)
+        for curve in benchmark.curves:
+            path = report(name, mesh, curve, summary, seconds, folder)
+            axis.plot(path[:, 1], path[:, 0], color=f"C{number}", label=f"{curve.label}, {mesh}")
+    for curve in benchmark.curves:
+        loads, published = zip(*curve.published)
+        axis.plot(published, loads, "o", color="k", fillstyle="none", label=f"{curve.label}, published")
+    axis.set(title=name, xlabel="displacement", ylabel="load factor")
+    axis.legend(fontsize=7)
+    figure.tight_layout()
+    figure.savefig(out / f"{name}.png", dpi=130)
+    plt.close(figure)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="benchmarks to run; all when none is given")
+    parser.add_argument("--out", type=Path, default=here / "results")
+    parser.add_argument("--list", action="store_true", help="print the names")
+    arguments = parser.parse_args()
+    if arguments.list:
+        print("\n".join(BENCHMARKS))
+        return
+    unknown = set(arguments.names) - set(BENCHMARKS)
+    if unknown:
+        parser.error(f"no benchmark named {', '.join(sorted(unknown))}; --list prints the names")
+    print("benchmark | mesh | what | run | largest difference | computed | published | at full load | time")
+    for name in arguments.names or BENCHMARKS:
+        compare(name, BENCHMARKS[name], arguments.out)
+
+
+main()
