@@ -19,7 +19,6 @@ using Vec2 = Eigen::Vector2d;
 using Mat36 = Eigen::Matrix<double, 3, 6>;
 
 constexpr double conic_replaced = 50;  // beyond it the fit is replaced by hinge angles; measured to cost 0.3 %
-constexpr double conic_rejected = 1e6;
 
 /// Six-vertex patch of a triangle: its corners 0..2 and the apices 3..5 across edges 0..2.
 struct Patch {
@@ -179,9 +178,7 @@ class Builder {
       result_.worst_conic = conic;
       result_.worst_triangle = t;
     }
-    if (!(conic < conic_rejected))
-      reject_conic(t, conic);
-    if (conic > conic_replaced) {
+    if (!(conic <= conic_replaced)) {
       ++result_.n_replaced;
       return hinge_coefficients(Y, p);
     }
@@ -332,15 +329,6 @@ class Builder {
         "shell '{}': triangles {} and {} at ({}, {}, {}) fold by more than 90 degrees over their common edge; "
         "refine the mesh there",
         shell_, t, topology_.neighbour[t][k], at.x(), at.y(), at.z());
-  }
-
-  [[noreturn]] void reject_conic(int t, double conic) const
-  {
-    const Vec3 at = surface::centroid(mesh_, t);
-    fail_input(
-        "shell '{}': triangle {} at ({}, {}, {}) and its neighbours lie on a conic (q = {:.1e}, at most {:.0e}), "
-        "so no curvature can be found; move a vertex or refine there",
-        shell_, t, at.x(), at.y(), at.z(), conic, conic_rejected);
   }
 
   struct EdgeNormals : std::array<Vec3, 3> {

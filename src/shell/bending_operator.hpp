@@ -52,7 +52,7 @@ enum class BendingKind {
 };
 
 /// Curvature operator of every triangle. The bending `moduli` (shape only) weight the natural condition at free edges.
-/// \throws InputError naming `shell` and the triangle where the mesh folds back on itself or the fit is singular.
+/// \throws InputError naming `shell` and the triangle where the mesh folds back on itself.
 BendingOperator bending_operator(BendingKind kind, const surface::TriangleMesh& mesh, const surface::Topology& topology,
                                  const std::vector<MirrorEdge>& mirrors, const Mat3& moduli, std::string_view shell);
 

@@ -93,7 +93,7 @@ BENCHMARKS = {
     ),
     "pinched-cylinder": Benchmark(
         [Curve("-w", "force", "z", -1, single("pinched-cylinder"))],
-        refined("cylinder", ("diagonal", "irregular"), (32, 64, 96)),
+        refined("cylinder", ("diagonal", "irregular"), (32, 64, 128)),
     ),
     "hemisphere": Benchmark(
         [Curve("out", "out", "x", 1, single("hemisphere")), Curve("in", "in", "y", -1, single("hemisphere"))],
@@ -133,7 +133,9 @@ def run(name, settings, out):
             command += ["--set", f"{key}={value}"]
         started = time.perf_counter()
         with open(out.with_suffix(".log"), "w") as log:
-            subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, check=False)
+            status = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, check=False).returncode
+        if status == 2:
+            raise SystemExit(out.with_suffix(".log").read_text())
         out.with_suffix(".seconds").write_text(f"{time.perf_counter() - started:.1f}")
     return json.loads((out / "summary.json").read_text()), float(out.with_suffix(".seconds").read_text())
 
