@@ -2,8 +2,10 @@
 // Curvature of a triangle from the vertices around it.
 #include "shell/bending_operator.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Dense>
 
@@ -18,7 +20,7 @@ using surface::TriangleMesh;
 using Vec2 = Eigen::Vector2d;
 using Mat36 = Eigen::Matrix<double, 3, 6>;
 
-constexpr double conic_replaced = 50;  // beyond it the fit is replaced by hinge angles; measured to cost 0.3 %
+constexpr double conic_replaced = 50;  // beyond it a fit is not used
 
 /// Six-vertex patch of a triangle: its corners 0..2 and the apices 3..5 across edges 0..2.
 struct Patch {
@@ -30,7 +32,8 @@ struct Patch {
   std::array<Vec2, 3> m;  ///< outward edge normals
   std::array<bool, 3> mirrored;
   std::array<Image, 3> mirror;
-  Mat36 bubble;  ///< c_k = sum_i bubble(k, i) y_i: coefficients of the quadratic's edge bubbles
+  bool replaced = false;  ///< the fit by hinge angles, because the six vertices lie near a conic
+  Mat36 bubble;           ///< c_k = sum_i bubble(k, i) y_i: coefficients of the quadratic's edge bubbles
 };
 
 /// Second derivatives of the bubble L_a L_b in Voigt order, (2 a1 b1, 2 a2 b2, 2 (a1 b2 + a2 b1)).
@@ -161,7 +164,7 @@ class Builder {
   }
 
   /// c = M^-1 [-L(apices) | I] y with M_jk = bubble k at apex j; hinge angles where the six vertices are near a conic.
-  Mat36 bubble_coefficients(int t, const std::array<Vec2, 6>& xi, const std::array<Vec3, 6>& Y, const Patch& p)
+  Mat36 bubble_coefficients(int t, const std::array<Vec2, 6>& xi, const std::array<Vec3, 6>& Y, Patch& p)
   {
     Mat3 M, L;
     for (int j = 0; j < 3; ++j) {
@@ -173,12 +176,14 @@ class Builder {
     }
     if (kind_ == BendingKind::Hinge)
       return hinge_coefficients(Y, p);
-    const double conic = 1 / Eigen::JacobiSVD<Mat3>(M).singularValues()(2);
+    const double conic =
+        1 / std::max(Eigen::JacobiSVD<Mat3>(M).singularValues()(2), std::numeric_limits<double>::epsilon());
     if (conic > result_.worst_conic) {
       result_.worst_conic = conic;
       result_.worst_triangle = t;
     }
-    if (!(conic <= conic_replaced)) {
+    p.replaced = conic > conic_replaced;
+    if (p.replaced) {
       ++result_.n_replaced;
       return hinge_coefficients(Y, p);
     }
@@ -256,16 +261,24 @@ class Builder {
         add_bubbles(p, k, -weight, nullptr, stencil);
         continue;
       }
-      add_bubbles(p, k, -0.5 * weight, nullptr, stencil);
-      add_flat_slope(p, p.m[k], -0.5 * weight, nullptr, stencil);
       const Reflected mirror{p.mirror[k], p.vertex[(k + 1) % 3], p.vertex[(k + 2) % 3]};
       const Reflected* through = p.mirrored[k] ? &mirror : nullptr;
       const Patch& q = p.mirrored[k] ? p : patches_[topology_.neighbour[t][k]];
       const int edge = p.mirrored[k] ? k : topology_.neighbour_edge[t][k];
-      add_bubbles(q, edge, 0.5 * weight, through, stencil);
-      add_flat_slope(q, -q.m[edge], 0.5 * weight, through, stencil);
+      const double share = share_of_neighbour(p, q);
+      add_bubbles(p, k, -(1 - share) * weight, nullptr, stencil);
+      add_flat_slope(p, p.m[k], -share * weight, nullptr, stencil);
+      add_bubbles(q, edge, share * weight, through, stencil);
+      add_flat_slope(q, -q.m[edge], share * weight, through, stencil);
     }
     return stencil;
+  }
+
+  /// A half; all where only the neighbour has a quadratic, nothing where only the triangle itself has one. Exactness
+  /// and equilibrium need a single slope per edge, from whichever quadratics.
+  static double share_of_neighbour(const Patch& own, const Patch& neighbour)
+  {
+    return own.replaced == neighbour.replaced ? 0.5 : own.replaced ? 1 : 0;
   }
 
   /// The mirror of a supported edge and the two vertices on it, which are their own images.

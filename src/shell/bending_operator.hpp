@@ -28,11 +28,12 @@ struct StencilEntry {
 struct BendingOperator {
   std::vector<Image> images;
   std::vector<std::vector<StencilEntry>> stencils;
-  /// Largest q = 1/sigma_min of a patch's quadratic fit: 1 for equilateral patches, infinite for six vertices on a
-  /// conic; 0 for hinges, which fit nothing.
+  /// Largest q = 1/sigma_min of a patch's quadratic fit: 1 for equilateral patches, 1/(machine epsilon) for six
+  /// vertices on a conic or two that coincide (around a vertex of three triangles); 0 for hinges, which fit nothing.
   double worst_conic = 0;
   int worst_triangle = -1;
-  /// Triangles whose fit was replaced by hinge angles because q > 50.
+  /// Triangles without a quadratic of their own because q > 50: averaged slopes come from their neighbours alone, or
+  /// from hinge angles where those have none either; patch quadratics become hinge angles.
   int n_replaced = 0;
 };
 
