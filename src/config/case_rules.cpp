@@ -49,6 +49,17 @@ void state_periodic_rule(Schema& s, const Case& options)
   }
 }
 
+void state_material_rule(Schema& s, const Case& options)
+{
+  for (std::size_t i = 0; i < options.shells.size(); ++i) {
+    const MaterialOptions& m = options.shells[i].material;
+    s.rule(m.model != MaterialModel::MayNewmanYin || m.c10 > 0.0 || options.structure.analysis == Analysis::Dynamic,
+           fmt::format("shell.{}.material.c10", i),
+           "must be greater than 0 unless `structure.analysis = \"dynamic\"`: without it the material has no stiffness "
+           "at rest");
+  }
+}
+
 bool is_inside(const Vec3& point, const GridOptions& grid)
 {
   for (int d = 0; d < 3; ++d)
@@ -87,6 +98,7 @@ void state_case_rules(Schema& s, const Case& options)
   s.rule(flows || !options.output.fields, "output.fields", "must be left out without a [fluid]");
   state_names_rule(s, options);
   state_periodic_rule(s, options);
+  state_material_rule(s, options);
   state_probe_rules(s, options);
 }
 

@@ -28,7 +28,6 @@ void describe(Schema& s, MeshOptions& mesh);
 void describe(Schema& s, AngleOptions& angle);
 void describe(Schema& s, PolarOptions& polar);
 void describe(Schema& s, RotateOptions& rotate);
-void describe(Schema& s, MaterialOptions& material);
 void describe(Schema& s, DampingOptions& damping);
 void describe(Schema& s, SupportOptions& support);
 void describe(Schema& s, LoadOptions& load);
@@ -37,6 +36,11 @@ void describe(Schema& s, PlaneOptions& plane);
 void describe(Schema& s, BodyOptions& body);
 void describe(Schema& s, MotionOptions& motion);
 void describe(Schema& s, RotationOptions& rotation);
+
+// What shells are made of (describe_material.cpp).
+void describe(Schema& s, MaterialOptions& material);
+void describe(Schema& s, FibreOptions& fibre);
+void describe(Schema& s, CircumferenceOptions& circumference);
 
 // How it is solved and what is written (describe_run.cpp).
 void describe(Schema& s, StructureOptions& structure);

@@ -12,7 +12,6 @@ namespace {
 
 constexpr auto surface_name =
     "Its name in messages and in the names of output files; no two shells or bodies share one.";
-constexpr double largest_poisson_ratio = 0.5;  // incompressible; plane stress stays finite there
 
 }  // namespace
 
@@ -62,17 +61,6 @@ void describe(Schema& s, RotateOptions& rotate)
   s.key("angle", rotate.angle, {.doc = "Angle, right-handed about the axis.", .unit = "degrees", .required = true});
   s.key("about", rotate.about, {.doc = "A point on the axis.", .unit = "m"});
   s.rule(!rotate.axis.isZero(0.0), "axis", "must not be zero");
-}
-
-void describe(Schema& s, MaterialOptions& material)
-{
-  s.key("model", material.model,
-        {.doc = "Saint-Venant-Kirchhoff: stress linear in the Green-Lagrange strain, plane stress.", .required = true});
-  s.key("young", material.young, {.doc = "Young's modulus.", .unit = "Pa", .range = positive, .required = true});
-  s.key("poisson", material.poisson,
-        {.doc = "Poisson's ratio.",
-         .range = {.low = -1.0, .high = largest_poisson_ratio, .with_low = false},
-         .required = true});
 }
 
 void describe(Schema& s, DampingOptions& damping)

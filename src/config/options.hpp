@@ -166,12 +166,53 @@ struct PlacementOptions {
   bool operator==(const PlacementOptions&) const = default;
 };
 
-enum class MaterialModel { SaintVenantKirchhoff };
+enum class MaterialModel { SaintVenantKirchhoff, NeoHookean, MayNewmanYin, LeeSacks, Fung, HolzapfelGasserOgden };
 
+/// Around an axis.
+struct CircumferenceOptions {
+  Vec3 axis = Vec3::Zero();
+  Vec3 through = Vec3::Zero();
+
+  bool operator==(const CircumferenceOptions&) const = default;
+};
+
+/// Direction of the fibres in space, where the mesh is put: exactly one of the three.
+struct FibreOptions {
+  std::optional<Vec3> direction;
+  std::optional<CircumferenceOptions> circumference;
+  std::optional<std::string> field;  ///< array of the mesh file, one vector per triangle; turned with the mesh
+  Mark mark = {};
+
+  bool operator==(const FibreOptions&) const = default;
+};
+
+/// Each model uses some of the constants; formulas: docs/numerics/materials.md.
 struct MaterialOptions {
   MaterialModel model = MaterialModel::SaintVenantKirchhoff;
   double young = 0.0;
   double poisson = 0.0;
+  double shear_modulus = 0.0;
+  double c0 = 0.0;
+  double c1 = 0.0;
+  double c2 = 0.0;
+  double c10 = 0.0;
+  double c3 = 0.0;
+  double weight = 0.0;
+  bool tension_only = false;
+  double c = 0.0;  ///< Fung's, with its exponents a11 ... a23
+  double a11 = 0.0;
+  double a22 = 0.0;
+  double a33 = 0.0;
+  double a12 = 0.0;
+  double a13 = 0.0;
+  double a23 = 0.0;
+  double k1 = 0.0;
+  double k2 = 0.0;
+  double dispersion = 0.0;
+  double angle = 0.0;  ///< degrees, between each family and the fibre
+  double largest_exponent = 10.0;
+  std::optional<int> thickness_points = std::nullopt;  ///< none: what the model recommends
+  std::optional<FibreOptions> fibre = std::nullopt;
 
   bool operator==(const MaterialOptions&) const = default;
 };

@@ -58,7 +58,12 @@ inline Words<MeshPattern> words(MeshPattern)
 
 inline Words<MaterialModel> words(MaterialModel)
 {
-  return {{{MaterialModel::SaintVenantKirchhoff, "saint-venant-kirchhoff"}}, {"neo-hookean", "may-newman-yin"}};
+  return {{{MaterialModel::SaintVenantKirchhoff, "saint-venant-kirchhoff"},
+           {MaterialModel::NeoHookean, "neo-hookean"},
+           {MaterialModel::MayNewmanYin, "may-newman-yin"},
+           {MaterialModel::LeeSacks, "lee-sacks"},
+           {MaterialModel::Fung, "fung"},
+           {MaterialModel::HolzapfelGasserOgden, "holzapfel-gasser-ogden"}}};
 }
 
 inline Words<BendingElement> words(BendingElement)

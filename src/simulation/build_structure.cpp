@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "simulation/build.hpp"
 #include "simulation/build_mesh.hpp"
+#include "simulation/build_material.hpp"
 #include "simulation/refusal.hpp"
 #include "surface/generators.hpp"
 #include "surface/selection.hpp"
@@ -51,16 +52,12 @@ shell::BendingKind bending_of(config::BendingElement bending)
   return shell::BendingKind::AveragedQuadratics;
 }
 
-shell::Material material_of(const config::MaterialOptions& options)
-{
-  return shell::SaintVenantKirchhoff{.young = options.young, .poisson = options.poisson};
-}
-
 shell::Properties properties_of(const config::ShellOptions& options)
 {
   return {.thickness = options.thickness,
           .density = options.density,
-          .material = material_of(options.material),
+          .material = build_material(options.material),
+          .thickness_points = options.material.thickness_points.value_or(0),
           .bending = bending_of(options.bending),
           .damping_mass = options.damping.mass,
           .damping_stiffness = options.damping.stiffness,
@@ -156,6 +153,7 @@ shell::Piece build_piece(const config::ShellOptions& options)
   for (std::size_t n = 0; n < options.supports.size(); ++n)
     piece.supports.push_back(
         support_of(options.supports[n], piece.reference, fmt::format("{}, support {}", owner, n + 1)));
+  piece.fibres = build_fibres(options, piece.reference);
   return piece;
 }
 
@@ -178,11 +176,9 @@ LoadedShell build_shell(const std::vector<config::ShellOptions>& options)
   std::vector<shell::Piece> pieces;
   int first_vertex = 0, first_triangle = 0;
   for (const config::ShellOptions& shell_options : options) {
-    shell::Piece piece = refusing_at(shell_options.mark, [&] {
-      shell::Piece made = build_piece(shell_options);
-      (void)shell::Shell({made});  // what is wrong with a piece is told with its own place in the file
-      return made;
-    });
+    shell::Piece piece = build_piece(shell_options);
+    // What is wrong with a piece is told with its own place in the file.
+    refusing_at(shell_options.mark, [&] { (void)shell::Shell({piece}); });
     for (const shell::Load& load : build_loads(shell_options, piece.reference))
       result.loads.push_back(shell::renumbered(load, first_vertex, first_triangle));
     first_vertex += piece.reference.n_vertices();

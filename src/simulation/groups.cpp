@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "shell/section.hpp"
 #include "simulation/build.hpp"
+#include "simulation/build_material.hpp"
 
 namespace luff::simulation {
 
@@ -85,15 +87,38 @@ void describe_flow(const config::Case& options, const Structure& structure, std:
                               steps * spacing.cells * microseconds * 1e-6 / 60.0));
 }
 
+/// Bending stiffness [M L^2/T^2] at rest: about the axis across the fibre, and about the fibre.
+Eigen::Vector2d bending_stiffness(const config::ShellOptions& shell)
+{
+  const shell::Section section =
+      shell::make_section(build_material(shell.material), shell.thickness, shell.material.thickness_points.value_or(0));
+  const Vec3 rest = Vec3::Zero();
+  const Mat3 D =
+      std::visit([&](const auto& s) { return s.stiffness(rest, rest, shell::Fibre::UnitX()).bending; }, section);
+  return {D(0, 0), D(1, 1)};
+}
+
+/// One value, or two where the fibres make a difference.
+std::string shown(const Eigen::Vector2d& stiffness)
+{
+  if (std::abs(stiffness[0] - stiffness[1]) <= 1e-12 * stiffness[0])
+    return fmt::format("{:.4g}", stiffness[0]);
+  return fmt::format("{:.4g} along the fibres, {:.4g} across", stiffness[0], stiffness[1]);
+}
+
 void describe_shell(const config::Case& options, const config::ShellOptions& shell, double length,
                     std::vector<std::string>& lines)
 {
   const double h = shell.thickness;
-  const double stiffness =
-      shell.material.young * h * h * h / (12.0 * (1.0 - shell.material.poisson * shell.material.poisson));
+  const Eigen::Vector2d stiffness = bending_stiffness(shell);
+  if (stiffness.isZero(0.0))
+    lines.push_back(
+        fmt::format("WARNING: shell '{}': its material has no stiffness at rest; give c10 > 0 unless you "
+                    "know that its motion keeps it stretched",
+                    shell.name));
   if (!options.fluid) {
-    lines.push_back(fmt::format("shell '{}': bending stiffness E h^3/(12 (1 - nu^2)) = {:.4g}, mass per area {:.4g}",
-                                shell.name, stiffness, shell.density * h));
+    lines.push_back(fmt::format("shell '{}': bending stiffness at rest B = {}, mass per area {:.4g}", shell.name,
+                                shown(stiffness), shell.density * h));
     return;
   }
   const double speed = reference_speed(options);
@@ -101,8 +126,8 @@ void describe_shell(const config::Case& options, const config::ShellOptions& she
   const double mass_ratio = shell.density * h / (rho * length);
   lines.push_back(fmt::format("shell '{}': mass ratio rho_s h/(rho_f L) = {:.4g}", shell.name, mass_ratio));
   if (speed > 0.0)
-    lines.push_back(fmt::format("shell '{}': bending stiffness K_B = E h^3/(12 (1 - nu^2) rho_f U^2 L^3) = {:.4g}",
-                                shell.name, stiffness / (rho * speed * speed * length * length * length)));
+    lines.push_back(fmt::format("shell '{}': bending stiffness at rest K_B = B/(rho_f U^2 L^3) = {}", shell.name,
+                                shown(stiffness / (rho * speed * speed * length * length * length))));
   // Loose coupling blew up at M <= 1 within twenty steps (docs/numerics/coupling.md).
   if (options.coupling.scheme == config::CouplingScheme::Loose && mass_ratio < 10.0)
     lines.push_back(

@@ -42,7 +42,7 @@ TEST(ACaseFile, SetsTimeFluidGridAndBoundary)
 TEST(ACaseFile, SetsShellsAndBodies)
 {
   const Case c = every_key();
-  ASSERT_EQ(c.shells.size(), 2u);
+  ASSERT_EQ(c.shells.size(), 6u);
   const ShellOptions& flag = c.shells[0];
   EXPECT_EQ(flag.name, "flag");
   EXPECT_EQ(flag.mesh.shape, MeshShape::Rectangle);
@@ -72,6 +72,24 @@ TEST(ACaseFile, SetsShellsAndBodies)
   EXPECT_EQ(motion.rotation->angle.evaluate(Vec3::Zero(), 2.0), 20.0);
 }
 
+TEST(ACaseFile, SetsMaterialsAndTheirFibres)
+{
+  const Case c = every_key();
+  const MaterialOptions& leaflet = c.shells[1].material;
+  EXPECT_EQ(leaflet.model, MaterialModel::MayNewmanYin);
+  EXPECT_EQ((std::array{leaflet.c0, leaflet.c1, leaflet.c2, leaflet.c10}), (std::array{399.0, 4.325, 1446.5, 1000.0}));
+  EXPECT_TRUE(leaflet.tension_only);
+  EXPECT_EQ(leaflet.largest_exponent, 12.0);
+  EXPECT_EQ(leaflet.thickness_points, 4);
+  EXPECT_EQ(leaflet.fibre->circumference, (CircumferenceOptions{Vec3(0, 0, 1), Vec3(0.1, 0, 0)}));
+  EXPECT_EQ(c.shells[2].material.shear_modulus, 1e5);
+  EXPECT_EQ(c.shells[3].material.weight, 0.5);
+  EXPECT_EQ(c.shells[3].material.fibre->direction, Vec3(1, 1, 0));
+  EXPECT_EQ(c.shells[4].material.a23, 0.15);
+  EXPECT_EQ(c.shells[4].material.fibre->field, "grain");
+  EXPECT_EQ(c.shells[5].material.angle, 29.0);
+}
+
 TEST(ACaseFile, SetsSolversAndOutput)
 {
   const Case c = every_key();
@@ -96,6 +114,20 @@ TEST(AShellAlone, NeedsNoFluidNoGridAndNoBoundary)
   EXPECT_EQ(c.structure.analysis, Analysis::Static);
   EXPECT_EQ(c.structure.steps, 8);
   EXPECT_EQ(load_text(written(c)), c);
+}
+
+TEST(AShellWithoutStiffnessAtRest, IsRefusedInAStaticAnalysis)
+{
+  const std::string strip =
+      "[[shell]]\nname = \"strip\"\nthickness = 0.1\ndensity = 1\n"
+      "mesh = { shape = \"rectangle\", origin = [0, 0, 0], a = [10, 0, 0], b = [0, 1, 0], divisions = [32, 4] }\n"
+      "material = { model = \"may-newman-yin\", c0 = 399, c1 = 4, c2 = 300, c10 = 0, fibre = { direction = [1, 0, 0] } "
+      "}\n"
+      "[structure]\nanalysis = \"static\"\n";
+  EXPECT_EQ(complaint_about(strip),
+            "case.toml:6: shell.0.material.c10 = 0 must be greater than 0 unless `structure.analysis = \"dynamic\"`: "
+            "without it the material has no stiffness at rest");
+  EXPECT_EQ(complaint_about(changed(strip, "c10 = 0,", "c10 = 399,")), "");
 }
 
 TEST(AWrittenCase, ReadsAsTheSameOptions)
