@@ -67,9 +67,10 @@ int main(int argc, char** argv)
   const int divisions = argc > 1 ? std::atoi(argv[1]) : 20;
   const surface::TriangleMesh mesh = test::sheet(1, 1, divisions, divisions);
   const std::vector<int> edge = test::vertices_where(mesh, [](const Vec3& X) { return X.x() == 0; });
-  const shell::Shell flag(mesh,
-                          {.thickness = 0.01, .density = 100, .material = shell::SaintVenantKirchhoff{1e6, 0.4}, .gravity = Vec3(0, 0, -1)},
-                          {{.kind = shell::SupportKind::Clamped, .vertices = edge}});
+  const shell::Shell flag(
+      mesh,
+      {.thickness = 0.01, .density = 100, .material = shell::SaintVenantKirchhoff{1e6, 0.4}, .gravity = Vec3(0, 0, -1)},
+      {{.kind = shell::SupportKind::Clamped, .vertices = edge}});
   std::printf("%d triangles\n", mesh.n_triangles());
   time_assembly(flag);
   time_steps(flag);

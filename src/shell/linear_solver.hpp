@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,8 +13,15 @@
 namespace luff::shell {
 
 enum class LinearSolverKind {
-  Direct,             ///< sparse LDL' (CHOLMOD); also for indefinite matrices
-  ConjugateGradients  ///< block-Jacobi preconditioned; positive definite matrices only
+  Direct,               ///< sparse LDL'; also for indefinite matrices
+  ConjugateGradients,   ///< block-Jacobi preconditioned; positive definite matrices only
+  CgIncompleteCholesky  ///< conjugate gradients preconditioned by incomplete Cholesky; positive definite matrices only
+};
+
+struct Factorisation {
+  /// How many eigenvalues of A are negative, by Sylvester's law the negative pivots of LDL': the number of directions
+  /// in which an equilibrium with tangent A is unstable. Unknown to conjugate gradients.
+  std::optional<int> negative_pivots;
 };
 
 /// Solves A u = b for a symmetric A of a fixed pattern, with u = 0 where held.
@@ -21,7 +29,7 @@ class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
   /// Prepare for solving with A. \throws RunError when A is singular.
-  virtual void factorise(const BlockMatrix& A) = 0;
+  virtual Factorisation factorise(const BlockMatrix& A) = 0;
   /// Solution for the last factorised matrix; held entries of b are ignored, those of the result are zero.
   virtual Eigen::VectorXd solve(const Eigen::VectorXd& b) = 0;
 };
