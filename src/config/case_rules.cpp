@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "config/nearest.hpp"
+#include "core/nearest.hpp"
 
 namespace luff::config {
 namespace {
@@ -94,7 +94,13 @@ void state_case_rules(Schema& s, const Case& options)
   s.rule(flows || !options.shells.empty(), "", "must have something to solve: [fluid], [[shell]] or both");
   s.rule(!flows || options.structure.analysis == Analysis::Dynamic, "structure.analysis",
          "must be \"dynamic\" with a [fluid]");
-  s.rule(flows || options.bodies.empty(), "body", "must be left out without a [fluid]");
+  s.rule(options.structure.analysis != Analysis::DisplacementControl || options.shells.size() == 1,
+         "structure.analysis", "must be another one with several shells: one displacement cannot control them all");
+  s.rule(options.structure.solver == StructureSolver::Direct ||
+             (options.structure.stabilisation == StructureStabilisation::None &&
+              (options.structure.analysis == Analysis::Dynamic || options.structure.analysis == Analysis::Static)),
+         "structure.solver", "must be \"direct\" on paths with unstable equilibria, and with damping");
+  s.rule(flows || options.contact || options.bodies.empty(), "body", "must be left out without a [fluid] or [contact]");
   s.rule(flows || !options.output.fields, "output.fields", "must be left out without a [fluid]");
   state_names_rule(s, options);
   state_periodic_rule(s, options);

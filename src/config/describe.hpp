@@ -29,6 +29,7 @@ void describe(Schema& s, AngleOptions& angle);
 void describe(Schema& s, PolarOptions& polar);
 void describe(Schema& s, RotateOptions& rotate);
 void describe(Schema& s, DampingOptions& damping);
+void describe(Schema& s, SupportMotionOptions& motion);
 void describe(Schema& s, SupportOptions& support);
 void describe(Schema& s, LoadOptions& load);
 void describe(Schema& s, WhereOptions& where);
@@ -44,6 +45,8 @@ void describe(Schema& s, CircumferenceOptions& circumference);
 
 // How it is solved and what is written (describe_run.cpp).
 void describe(Schema& s, StructureOptions& structure);
+void describe(Schema& s, ContactOptions& contact);
+void describe(Schema& s, ControlOptions& control);
 void describe(Schema& s, PressureOptions& pressure);
 void describe(Schema& s, ImmersedOptions& immersed);
 void describe(Schema& s, CouplingOptions& coupling);

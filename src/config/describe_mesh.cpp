@@ -14,7 +14,10 @@ bool is_readable_mesh(const std::filesystem::path& file)
 {
   std::string kind = file.extension();
   std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
-  return kind == ".stl" || kind == ".obj" || kind == ".ply" || kind == ".vtp";
+  for (const char* readable : {".stl", ".obj", ".ply", ".vtp", ".vtu", ".msh"})
+    if (kind == readable)
+      return true;
+  return false;
 }
 
 void describe_parallelogram(Schema& s, MeshOptions& mesh)
@@ -98,8 +101,14 @@ void describe(Schema& s, MeshOptions& mesh)
     s.table("polar", mesh.polar, {.doc = "The zone's edges. 0 to 180: the whole sphere.", .required = true});
   });
   s.when(mesh.shape.has_value(), "`shape`", [&] { describe_parts(s, mesh); });
-  s.key("file", mesh.file, {.doc = "Read the mesh from an STL, OBJ, PLY or VTP file."});
-  s.rule(!mesh.file || is_readable_mesh(*mesh.file), "file", "must end in .stl, .obj, .ply or .vtp");
+  s.key("file", mesh.file, {.doc = "Read the mesh from an STL, OBJ, PLY, VTP, VTU or Gmsh (.msh) file."});
+  s.rule(!mesh.file || is_readable_mesh(*mesh.file), "file", "must end in .stl, .obj, .ply, .vtp, .vtu or .msh");
+  s.when(mesh.file.has_value(), "`file`", [&] {
+    s.key("repair", mesh.repair,
+          {.doc =
+               "Unite vertices at the same place, drop unused vertices and repeated triangles, and turn triangles that "
+               "face against their neighbours; the run tells how many. `false`: refuse such a mesh."});
+  });
 }
 
 void describe(Schema& s, AngleOptions& angle)
@@ -120,14 +129,19 @@ void describe(Schema& s, PolarOptions& polar)
 
 void describe(Schema& s, WhereOptions& where)
 {
-  s.exactly_one_of({"edge", "box", "plane", "point"});
+  s.exactly_one_of({"edge", "box", "plane", "point", "set", "all"});
   s.key("edge", where.edge, {.doc = "On the straight line between these two points.", .unit = "m"});
   s.key("box", where.box, {.doc = "In the box with this lowest and this highest corner.", .unit = "m"});
   s.table("plane", where.plane, {.doc = "On a plane."});
   s.key("point", where.point, {.doc = "The one vertex nearest to this point.", .unit = "m"});
+  s.key("set", where.set,
+        {.doc = "The members of this set of the mesh: an edge of a made mesh, or a set of a VTP, VTU or Gmsh file."});
+  s.key("all", where.all, {.doc = "`true`: everywhere."});
   if (where.box)
     s.rule(((*where.box)[0].array() <= (*where.box)[1].array()).all(), "box",
            "must be [lowest corner, highest corner]");
+  if (where.all)
+    s.rule(*where.all, "all", "must be true");
   if (where.edge)
     s.rule((*where.edge)[0] != (*where.edge)[1], "edge", "must have two different end points");
 }

@@ -17,6 +17,11 @@ void describe(Schema& s, Case& options)
   });
   s.list("shell", options.shells, {.doc = "A thin flexible shell; any number of them."});
   s.list("body", options.bodies, {.doc = "A thin rigid sheet; any number of them."});
+  s.when(options.structure.analysis == Analysis::Dynamic, "`structure.analysis = \"dynamic\"`", [&] {
+    s.table("contact", options.contact,
+            {.doc = "Contact of shells with each other, with themselves and with bodies. Absent: they pass through "
+                    "each other unnoticed."});
+  });
   s.table("pressure", options.pressure, {.doc = "How the pressure is solved for."});
   s.table("immersed", options.immersed, {.doc = "How the flow sees surfaces."});
   s.table("coupling", options.coupling, {.doc = "How flow and shells find each other in a time step."});
@@ -27,18 +32,83 @@ void describe(Schema& s, Case& options)
 void describe(Schema& s, StructureOptions& structure)
 {
   s.key("analysis", structure.analysis,
-        {.doc = "`dynamic`, or `static`: equilibrium under loads that grow in proportion from nothing to what they are "
-                "at t = 1; "
-                "only without a fluid."});
-  s.when(structure.analysis == Analysis::Static, "`analysis = \"static\"`",
-         [&] { s.key("steps", structure.steps, {.doc = "Equal load steps.", .range = at_least_one}); });
+        {.doc = "`dynamic`: motion in time. The others, only without a fluid, find equilibria under loads that grow in "
+                "proportion from nothing to what they are at t = 1. `static`: by equal load steps. `arc-length`: along "
+                "the path of equilibria, through limit points and snap-back, until it first reaches the whole load. "
+                "`displacement-control`: by equal steps of a displacement, the load following."});
+  s.when(structure.analysis != Analysis::Dynamic, "`static`, `arc-length` or `displacement-control`", [&] {
+    s.key(
+        "steps", structure.steps,
+        {.doc = "Equal steps; shortened where one fails, and lengthened again. `arc-length`: the first step is as long "
+                "as the first of so many load steps would be.",
+         .range = at_least_one});
+  });
+  s.when(structure.analysis == Analysis::Static, "`analysis = \"static\"`", [&] {
+    s.key("stabilisation", structure.stabilisation,
+          {.doc = "Where the shell cannot carry more: `none`, the run fails; `damping`, it moves on, damped, until it "
+                  "rests in the next stable equilibrium."});
+  });
+  s.when(structure.analysis == Analysis::ArcLength, "`analysis = \"arc-length\"`", [&] {
+    s.key("max_steps", structure.max_steps,
+          {.doc = "The run fails when so many steps do not reach the whole load.", .range = at_least_one});
+  });
+  s.when(structure.analysis == Analysis::DisplacementControl, "`analysis = \"displacement-control\"`", [&] {
+    s.table("control", structure.control,
+            {.doc = "The displacement that is prescribed; only with a single shell.", .required = true});
+  });
   s.key("solver", structure.solver,
         {.doc = "Linear solver in Newton's method: sparse Cholesky, or conjugate gradients."});
+  s.when(structure.analysis == Analysis::Dynamic, "`analysis = \"dynamic\"`", [&] {
+    s.key(
+        "scheme", structure.scheme,
+        {.doc = "Scheme in time: `newmark`, the average acceleration; `generalised-alpha`, which damps what the steps "
+                "do not resolve; `midpoint`, which keeps linear and angular momentum."});
+    s.when(structure.scheme == StructureScheme::Newmark, "`scheme = \"newmark\"`", [&] {
+      s.key(
+          "numerical_damping", structure.numerical_damping,
+          {.doc = "a in beta = (1 + a)^2/4, gamma = 1/2 + a: damps all frequencies and leaves the scheme first order; "
+                  "0: none, second order.",
+           .range = {.low = 0.0, .high = 1.0}});
+    });
+    s.when(structure.scheme == StructureScheme::GeneralisedAlpha, "`scheme = \"generalised-alpha\"`", [&] {
+      s.key("rho_inf", structure.rho_inf,
+            {.doc = "What a step leaves of the frequencies it does not resolve.", .range = {.low = 0.0, .high = 1.0}});
+    });
+  });
   s.key("fold_limit", structure.fold_limit,
         {.doc = "The run ends where a shell folds by more than this over an edge of its mesh. The element resists a "
                 "fold most at 90 degrees and less beyond: above 75, refine the mesh, or know what you do.",
          .unit = "degrees",
          .range = {.low = 0.0, .high = 180.0, .with_low = false}});
+}
+
+void describe(Schema& s, ContactOptions& contact)
+{
+  s.mark(contact.mark);
+  s.key("distance", contact.distance,
+        {.doc = "Distance of two surfaces where they begin to push each other apart; at most the mean edge length of a "
+                "shell's mesh. About the thickness is a good choice.",
+         .unit = "m",
+         .range = positive,
+         .required = true});
+  s.key(
+      "stiffness", contact.stiffness,
+      {.doc = "Pressure between surfaces at about half that distance; more, the closer they come. The largest pressure "
+              "that will press them together is a good choice.",
+       .unit = "Pa",
+       .range = positive,
+       .required = true});
+  s.key("self", contact.self,
+        {.doc = "Whether parts of one connected surface push each other, too, or only different surfaces."});
+}
+
+void describe(Schema& s, ControlOptions& control)
+{
+  s.mark(control.mark);
+  s.table("where", control.where, {.doc = "Vertices whose mean displacement is prescribed.", .required = true});
+  s.key("component", control.component, {.doc = "Which component of it.", .required = true});
+  s.key("displacement", control.displacement, {.doc = "Its value at the last step.", .unit = "m", .required = true});
+  s.rule(control.displacement != 0.0, "displacement", "must not be 0");
 }
 
 void describe(Schema& s, PressureOptions& pressure)

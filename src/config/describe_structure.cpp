@@ -49,6 +49,9 @@ void describe(Schema& s, ShellOptions& shell)
         {.doc = "How curvature is found: `qavg`, slopes averaged over the edges, right on every mesh; `patch4`, the "
                 "quadratic of four triangles, and `hinge`, angles between triangles, are for comparison and right on "
                 "`diagonal` meshes only."});
+  s.key("mass", shell.mass,
+        {.doc = "Mass matrix: `consistent` with the element, or `lumped`, a third of each triangle's at each corner: "
+                "less accurate."});
   s.table("damping", shell.damping, {.doc = "Rayleigh damping."});
   s.key("gravity", shell.gravity, {.doc = "Acceleration of gravity acting on the shell.", .unit = "m/s^2"});
   s.list("support", shell.supports, {.doc = "Vertices that are held; edges without support are free."});
@@ -78,8 +81,36 @@ void describe(Schema& s, SupportOptions& support)
   s.exactly_one_of({"type", "fixed"});
   s.key("type", support.type,
         {.doc = "`clamped`: neither moves nor turns; `hinged`: does not move; `symmetry`: stays in the plane of "
-                "symmetry and normal to it."});
-  s.key("fixed", support.fixed, {.doc = "Components of the displacement that are zero."});
+                "symmetry, of any direction, and normal to it; `elastic`: moves and turns against springs."});
+  s.key("fixed", support.fixed, {.doc = "Components of the displacement that are zero, or those of `motion`."});
+  const bool is_elastic = support.type == SupportType::Elastic;
+  s.when(is_elastic, "`type = \"elastic\"`", [&] {
+    s.key("stiffness", support.stiffness,
+          {.doc = "Of the springs along x, y and z, of all vertices together: shared by the length of the boundary "
+                  "edges between them, or equally.",
+           .unit = "N/m"});
+    s.key("turning_stiffness", support.turning_stiffness,
+          {.doc = "Moment per length of boundary edge and angle by which it turns about its direction.",
+           .unit = "N/rad",
+           .range = not_negative});
+    s.rule((support.stiffness.array() >= 0.0).all(), "stiffness", "must be three numbers >= 0");
+    s.rule(!is_elastic || !support.stiffness.isZero(0.0) || support.turning_stiffness > 0.0, "stiffness",
+           "or turning_stiffness must be greater than 0");
+  });
+  s.when(support.type != SupportType::Symmetry && !is_elastic, "a clamped, hinged or fixed support", [&] {
+    s.table(
+        "motion", support.motion,
+        {.doc = "Where the support takes what it holds; a clamped edge turns with the rotation. Absent: it rests."});
+  });
+}
+
+void describe(Schema& s, SupportMotionOptions& motion)
+{
+  s.key("translation", motion.translation,
+        {.doc = "Displacement, zero at t = 0; applied after the rotation, and turns nothing. In a static analysis it "
+                "grows in proportion to what it is at t = 1.",
+         .unit = "m"});
+  s.table("rotation", motion.rotation, {.doc = "Rotation about a fixed axis, likewise."});
 }
 
 void describe(Schema& s, LoadOptions& load)

@@ -11,7 +11,7 @@
 #include <fmt/core.h>
 #include <muParser.h>
 
-#include "config/nearest.hpp"
+#include "core/nearest.hpp"
 #include "config/time_series.hpp"
 #include "core/error.hpp"
 

@@ -137,6 +137,7 @@ struct MeshOptions {
   int seed = 1;
 
   std::optional<std::filesystem::path> file;  ///< absolute once read
+  bool repair = true;                         ///< of what is read
   Mark mark = {};
 
   bool operator==(const MeshOptions&) const = default;
@@ -232,24 +233,45 @@ struct PlaneOptions {
   bool operator==(const PlaneOptions&) const = default;
 };
 
-/// Vertices of a shell chosen by their place in the reference configuration: exactly one of the four.
+/// Vertices of a shell chosen by their place in the reference configuration or by name: exactly one of the six.
 struct WhereOptions {
   std::optional<std::array<Vec3, 2>> edge;  ///< on the line between two points
   std::optional<std::array<Vec3, 2>> box;   ///< lowest and highest corner
   std::optional<PlaneOptions> plane;
-  std::optional<Vec3> point;  ///< the nearest vertex
+  std::optional<Vec3> point;       ///< the nearest vertex
+  std::optional<std::string> set;  ///< of the mesh
+  std::optional<bool> all;         ///< true
 
   bool operator==(const WhereOptions&) const = default;
 };
 
-enum class SupportType { Clamped, Hinged, Symmetry };
+struct RotationOptions {
+  Vec3 axis = Vec3::Zero();
+  Vec3 about = Vec3::Zero();
+  Expression angle;  ///< degrees, of t
+
+  bool operator==(const RotationOptions&) const = default;
+};
+
+/// Where a support goes: rotation about a fixed axis, then translation.
+struct SupportMotionOptions {
+  VectorExpression translation;  ///< of place in the reference configuration and t
+  std::optional<RotationOptions> rotation;
+
+  bool operator==(const SupportMotionOptions&) const = default;
+};
+
+enum class SupportType { Clamped, Hinged, Symmetry, Elastic };
 enum class Component { X, Y, Z };
 
 /// [[shell.support]]: exactly one of `type` and `fixed`.
 struct SupportOptions {
   WhereOptions where;
   std::optional<SupportType> type;
-  std::optional<std::vector<Component>> fixed;  ///< displacement components held at zero
+  std::optional<std::vector<Component>> fixed;  ///< displacement components held
+  Vec3 stiffness = Vec3::Zero();                ///< of an elastic support along x, y, z, in all
+  double turning_stiffness = 0.0;               ///< of an elastic support, per length of edge
+  std::optional<SupportMotionOptions> motion;   ///< none: at rest
   Mark mark = {};
 
   bool operator==(const SupportOptions&) const = default;
@@ -270,6 +292,8 @@ struct LoadOptions {
 
 enum class BendingElement { Qavg, Patch4, Hinge };
 
+enum class MassMatrix { Consistent, Lumped };
+
 /// [[shell]]
 struct ShellOptions {
   std::string name;
@@ -279,6 +303,7 @@ struct ShellOptions {
   double density = 0.0;
   MaterialOptions material;
   BendingElement bending = BendingElement::Qavg;
+  MassMatrix mass = MassMatrix::Consistent;
   DampingOptions damping;
   Vec3 gravity = Vec3::Zero();
   std::vector<SupportOptions> supports;
@@ -289,14 +314,6 @@ struct ShellOptions {
 };
 
 enum class MotionType { Fixed, Prescribed };
-
-struct RotationOptions {
-  Vec3 axis = Vec3::Zero();
-  Vec3 about = Vec3::Zero();
-  Expression angle;  ///< degrees, of t
-
-  bool operator==(const RotationOptions&) const = default;
-};
 
 /// Rigid motion from where the mesh is put: rotation about a fixed axis, then translation; functions of t alone.
 struct MotionOptions {
@@ -319,17 +336,45 @@ struct BodyOptions {
 
 // ---- how it is solved ------------------------------------------------------------------------------------------
 
-enum class Analysis { Dynamic, Static };
+enum class Analysis { Dynamic, Static, ArcLength, DisplacementControl };
+enum class StructureStabilisation { None, Damping };
 enum class StructureSolver { Direct, Cg };
+enum class StructureScheme { Newmark, GeneralisedAlpha, Midpoint };
+
+/// The displacement prescribed in displacement control: the mean of one component over vertices of the only shell.
+struct ControlOptions {
+  WhereOptions where;
+  Component component = Component::Z;
+  double displacement = 0.0;  ///< at the end
+  Mark mark = {};
+
+  bool operator==(const ControlOptions&) const = default;
+};
 
 /// [structure]
 struct StructureOptions {
   Analysis analysis = Analysis::Dynamic;
-  int steps = 20;  ///< equal load steps of a static analysis
+  int steps = 20;                                                       ///< of load or displacement
+  int max_steps = 1000;                                                 ///< of arc-length
+  StructureStabilisation stabilisation = StructureStabilisation::None;  ///< of load control
+  ControlOptions control;
   StructureSolver solver = StructureSolver::Direct;
-  double fold_limit = 75.0;  ///< degrees
+  StructureScheme scheme = StructureScheme::Newmark;
+  double numerical_damping = 0.0;  ///< of Newmark's scheme
+  double rho_inf = 0.8;            ///< of the generalised-alpha scheme
+  double fold_limit = 75.0;        ///< degrees
 
   bool operator==(const StructureOptions&) const = default;
+};
+
+/// [contact] of shells with each other, with themselves and with bodies
+struct ContactOptions {
+  double distance = 0.0;   ///< where the repulsion begins
+  double stiffness = 0.0;  ///< pressure at about half that distance
+  bool self = true;        ///< also between parts of one surface
+  Mark mark = {};
+
+  bool operator==(const ContactOptions&) const = default;
 };
 
 enum class PressureSolver { Multigrid, Petsc };
@@ -413,6 +458,7 @@ struct Case {
   BoundaryOptions boundary;
   std::vector<ShellOptions> shells;
   std::vector<BodyOptions> bodies;
+  std::optional<ContactOptions> contact;  ///< none: surfaces pass through each other
   PressureOptions pressure;
   ImmersedOptions immersed;
   CouplingOptions coupling;

@@ -8,7 +8,7 @@
 
 #include "config/case_rules.hpp"
 #include "config/describe.hpp"
-#include "config/nearest.hpp"
+#include "core/nearest.hpp"
 #include "config/value_reader.hpp"
 #include "config/value_text.hpp"
 

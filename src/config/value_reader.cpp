@@ -7,7 +7,7 @@
 
 #include <fmt/core.h>
 
-#include "config/nearest.hpp"
+#include "core/nearest.hpp"
 #include "config/value_text.hpp"
 #include "core/error.hpp"
 

@@ -73,7 +73,10 @@ inline Words<BendingElement> words(BendingElement)
 
 inline Words<SupportType> words(SupportType)
 {
-  return {{{SupportType::Clamped, "clamped"}, {SupportType::Hinged, "hinged"}, {SupportType::Symmetry, "symmetry"}}};
+  return {{{SupportType::Clamped, "clamped"},
+           {SupportType::Hinged, "hinged"},
+           {SupportType::Symmetry, "symmetry"},
+           {SupportType::Elastic, "elastic"}}};
 }
 
 inline Words<Component> words(Component)
@@ -88,12 +91,32 @@ inline Words<MotionType> words(MotionType)
 
 inline Words<Analysis> words(Analysis)
 {
-  return {{{Analysis::Dynamic, "dynamic"}, {Analysis::Static, "static"}}, {"arc-length"}};
+  return {{{Analysis::Dynamic, "dynamic"},
+           {Analysis::Static, "static"},
+           {Analysis::ArcLength, "arc-length"},
+           {Analysis::DisplacementControl, "displacement-control"}}};
+}
+
+inline Words<StructureStabilisation> words(StructureStabilisation)
+{
+  return {{{StructureStabilisation::None, "none"}, {StructureStabilisation::Damping, "damping"}}};
 }
 
 inline Words<StructureSolver> words(StructureSolver)
 {
   return {{{StructureSolver::Direct, "direct"}, {StructureSolver::Cg, "cg"}}};
+}
+
+inline Words<StructureScheme> words(StructureScheme)
+{
+  return {{{StructureScheme::Newmark, "newmark"},
+           {StructureScheme::GeneralisedAlpha, "generalised-alpha"},
+           {StructureScheme::Midpoint, "midpoint"}}};
+}
+
+inline Words<MassMatrix> words(MassMatrix)
+{
+  return {{{MassMatrix::Consistent, "consistent"}, {MassMatrix::Lumped, "lumped"}}};
 }
 
 inline Words<PressureSolver> words(PressureSolver)

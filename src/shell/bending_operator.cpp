@@ -56,16 +56,6 @@ Vec3 dyad(const Vec2& m)
   return {m.x() * m.x(), m.y() * m.y(), 2 * m.x() * m.y()};
 }
 
-Image reflection(const Vec3& normal, const Vec3& on_plane)
-{
-  return {Mat3::Identity() - 2 * normal * normal.transpose(), 2 * normal * normal.dot(on_plane)};
-}
-
-Image compose(const Image& outer, const Image& inner)
-{
-  return {outer.T * inner.T, outer.T * inner.t + outer.t};
-}
-
 class Builder {
  public:
   Builder(BendingKind kind, const TriangleMesh& mesh, const Topology& topology, const std::vector<MirrorEdge>& mirrors,
@@ -76,10 +66,11 @@ class Builder {
         moduli_(moduli),
         shell_(shell),
         size_(surface::bounding_box(mesh.vertices).size()),
-        mirror_normals_(mesh.triangles.size())
+        mirrors_(mirrors),
+        mirror_of_(mesh.triangles.size(), {-1, -1, -1})
   {
-    for (const MirrorEdge& m : mirrors)
-      mirror_normals_[m.edge.triangle][m.edge.edge] = m.normal;
+    for (std::size_t m = 0; m < mirrors.size(); ++m)
+      mirror_of_[mirrors[m].edge.triangle][mirrors[m].edge.edge] = static_cast<int>(m);
   }
 
   BendingOperator build()
@@ -88,6 +79,9 @@ class Builder {
       patches_.push_back(make_patch(t));
     for (int t = 0; t < mesh_.n_triangles(); ++t)
       result_.stencils.push_back(kind_ == BendingKind::AveragedQuadratics ? averaged_stencil(t) : own_stencil(t));
+    for (Image& image : result_.images)
+      if (!moves(image))
+        image.mirrors.clear();
     return std::move(result_);
   }
 
@@ -128,13 +122,14 @@ class Builder {
       return X[p.vertex[3 + k]];
     }
     p.vertex[3 + k] = opposite;
-    const Vec3& normal = mirror_normals_[t][k];
-    if (normal == Vec3::Zero()) {
+    const int mirror = mirror_of_[t][k];
+    if (mirror < 0) {
       p.present[3 + k] = false;
       return X[a] + X[b] - X[opposite];
     }
     p.mirrored[k] = true;
-    p.mirror[k] = reflection(normal, X[a]);
+    p.mirror[k] = reflection(mirrors_[mirror].normal, X[a]);
+    p.mirror[k].mirrors = {mirror};
     p.image[3 + k] = image_index(p.mirror[k]);
     return p.mirror[k].T * X[opposite] + p.mirror[k].t;
   }
@@ -317,17 +312,24 @@ class Builder {
     out.push_back({vertex, image, H});
   }
 
-  /// Number of an image, -1 for the identity; equal images share a number.
+  bool moves(const Image& image) const
+  {
+    return std::any_of(image.mirrors.begin(), image.mirrors.end(), [&](int m) { return mirrors_[m].motion >= 0; });
+  }
+
+  /// Number of an image, -1 for the identity; images that are equal, and stay so when supports move, share a number.
   int image_index(const Image& image)
   {
     constexpr double round_off = 1e-10;
-    const auto same = [&](const Mat3& T, const Vec3& t) {
-      return (image.T - T).norm() < round_off && (image.t - t).norm() < round_off * size_;
+    const auto same = [&](const Image& other) {
+      return (image.T - other.T).norm() < round_off && (image.t - other.t).norm() < round_off * size_ &&
+             (image.mirrors == other.mirrors || (!moves(image) && !moves(other)));
     };
-    if (same(Mat3::Identity(), Vec3::Zero()))
+    const bool there_and_back = image.mirrors.size() == 2 && image.mirrors[0] == image.mirrors[1];
+    if (there_and_back || same({Mat3::Identity(), Vec3::Zero()}))
       return -1;
     for (std::size_t i = 0; i < result_.images.size(); ++i)
-      if (same(result_.images[i].T, result_.images[i].t))
+      if (same(result_.images[i]))
         return static_cast<int>(i);
     result_.images.push_back(image);
     return static_cast<int>(result_.images.size()) - 1;
@@ -344,22 +346,31 @@ class Builder {
         shell_, t, topology_.neighbour[t][k], at.x(), at.y(), at.z());
   }
 
-  struct EdgeNormals : std::array<Vec3, 3> {
-    EdgeNormals() { fill(Vec3::Zero()); }
-  };
-
   BendingKind kind_;
   const TriangleMesh& mesh_;
   const Topology& topology_;
   const Mat3& moduli_;
   std::string_view shell_;
   double size_;
-  std::vector<EdgeNormals> mirror_normals_;
+  const std::vector<MirrorEdge>& mirrors_;
+  std::vector<std::array<int, 3>> mirror_of_;  ///< number of the mirror at each edge, or -1
   std::vector<Patch> patches_;
   BendingOperator result_;
 };
 
 }  // namespace
+
+Image reflection(const Vec3& normal, const Vec3& on_plane)
+{
+  return {Mat3::Identity() - 2 * normal * normal.transpose(), 2 * normal * normal.dot(on_plane)};
+}
+
+Image compose(const Image& outer, const Image& inner)
+{
+  Image both{outer.T * inner.T, outer.T * inner.t + outer.t, outer.mirrors};
+  both.mirrors.insert(both.mirrors.end(), inner.mirrors.begin(), inner.mirrors.end());
+  return both;
+}
 
 BendingOperator bending_operator(BendingKind kind, const TriangleMesh& mesh, const Topology& topology,
                                  const std::vector<MirrorEdge>& mirrors, const Mat3& moduli, std::string_view shell)

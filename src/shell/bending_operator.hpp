@@ -15,7 +15,16 @@ namespace luff::shell {
 struct Image {
   Mat3 T;
   Vec3 t;
+  /// Numbers of the mirrors it is composed of, the last one first, where one of them moves; empty where none does.
+  std::vector<int> mirrors{};
 };
+
+using Images = std::vector<Image>;
+
+/// Reflection in the plane through a point with this unit normal.
+Image reflection(const Vec3& normal, const Vec3& on_plane);
+/// The image of an image.
+Image compose(const Image& outer, const Image& inner);
 
 /// One vertex (or image of one) in the curvature of a triangle.
 struct StencilEntry {
@@ -26,7 +35,7 @@ struct StencilEntry {
 
 /// kappa_V = n . sum_i H_V^i y_i for every triangle; the first three entries are its corners.
 struct BendingOperator {
-  std::vector<Image> images;
+  Images images;
   std::vector<std::vector<StencilEntry>> stencils;
   /// Largest q = 1/sigma_min of a patch's quadratic fit: 1 for equilateral patches, 1/(machine epsilon) for six
   /// vertices on a conic or two that coincide (around a vertex of three triangles); 0 for hinges, which fit nothing.

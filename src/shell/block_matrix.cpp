@@ -35,11 +35,59 @@ BlockPattern couple(int n_vertices, std::span<const std::vector<int>> groups)
   return pattern;
 }
 
+void BlockMatrix::scale(double factor)
+{
+  for (double& value : values_)
+    value *= factor;
+}
+
+BlockPattern united(const BlockPattern& pattern, std::span<const std::array<int, 4>> groups)
+{
+  const int n = pattern.n_rows();
+  std::vector<std::pair<int, int>> extra;
+  for (const auto& group : groups)
+    for (const int row : group)
+      for (const int col : group)
+        if (row < n && col < n)
+          extra.emplace_back(row, col);
+  std::sort(extra.begin(), extra.end());
+  extra.erase(std::unique(extra.begin(), extra.end()), extra.end());
+  BlockPattern result;
+  result.row_start.push_back(0);
+  auto next = extra.begin();
+  for (int row = 0; row < n; ++row) {
+    const auto first = pattern.column.begin() + pattern.row_start[row];
+    const auto last = pattern.column.begin() + pattern.row_start[row + 1];
+    const auto row_begin = static_cast<std::ptrdiff_t>(result.column.size());
+    result.column.insert(result.column.end(), first, last);
+    const auto middle = static_cast<std::ptrdiff_t>(result.column.size());
+    for (; next != extra.end() && next->first == row; ++next)
+      if (!std::binary_search(first, last, next->second))
+        result.column.push_back(next->second);
+    std::inplace_merge(result.column.begin() + row_begin, result.column.begin() + middle, result.column.end());
+    result.row_start.push_back(static_cast<int>(result.column.size()));
+  }
+  return result;
+}
+
 void BlockMatrix::add(double factor, const BlockMatrix& other)
 {
-  ensure(pattern_ == other.pattern_, "two matrices on different patterns");
-  for (std::size_t i = 0; i < values_.size(); ++i)
-    values_[i] += factor * other.values_[i];
+  if (pattern_ == other.pattern_) {
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      values_[i] += factor * other.values_[i];
+    return;
+  }
+  ensure(pattern_->n_rows() == other.pattern_->n_rows(), "two matrices of different size");
+  for (int row = 0; row < pattern_->n_rows(); ++row) {
+    int here = pattern_->row_start[row];
+    for (int s = other.pattern_->row_start[row]; s < other.pattern_->row_start[row + 1]; ++s, ++here) {
+      while (here < pattern_->row_start[row + 1] && pattern_->column[here] < other.pattern_->column[s])
+        ++here;
+      ensure(here < pattern_->row_start[row + 1] && pattern_->column[here] == other.pattern_->column[s],
+             "a block outside the pattern");
+      block(here) += factor * other.block(s);
+    }
+  }
 }
 
 Eigen::VectorXd BlockMatrix::operator*(const Eigen::VectorXd& x) const

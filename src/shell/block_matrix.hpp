@@ -2,6 +2,7 @@
 // Sparse matrix of 3 x 3 blocks, one row of blocks per vertex.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -26,6 +27,9 @@ struct BlockPattern {
 /// Pattern in which all vertices of each group are coupled.
 BlockPattern couple(int n_vertices, std::span<const std::vector<int>> groups);
 
+/// The pattern with, in addition, all vertices of each group coupled; vertices beyond its rows are left out.
+BlockPattern united(const BlockPattern& pattern, std::span<const std::array<int, 4>> groups);
+
 /// Values on a pattern; block s is row-major at values[9 s].
 class BlockMatrix {
  public:
@@ -44,7 +48,9 @@ class BlockMatrix {
   {
     return Eigen::Map<const Block>(values_.data() + 9 * static_cast<std::size_t>(slot));
   }
-  /// this += factor * other, on the same pattern.
+  /// this *= factor.
+  void scale(double factor);
+  /// this += factor * other, whose blocks must all exist here.
   void add(double factor, const BlockMatrix& other);
   Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;
   /// All entries, 3n x 3n; for tests and small problems.

@@ -1,52 +1,49 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motion of a shell in time: Newmark's average acceleration (beta = 1/4, gamma = 1/2).
+// Motion of a shell in time.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "shell/contact/contact_step.hpp"
 #include "shell/folds.hpp"
 #include "shell/loads.hpp"
 #include "shell/newton.hpp"
 #include "shell/shell.hpp"
+#include "shell/time_scheme.hpp"
 
 namespace luff::shell {
 
-/// Positions, velocities, accelerations of all vertices (3n each) at time t.
-struct State {
-  Eigen::VectorXd x;  ///< [L]
-  Eigen::VectorXd v;  ///< [L/T]
-  Eigen::VectorXd a;  ///< [L/T^2]
-  double t = 0;
-};
-
-/// Velocity and acceleration that Newmark's rule gives to new positions.
-struct Kinematics {
-  Eigen::VectorXd v;
-  Eigen::VectorXd a;
-};
-
 /// Where the energy is and what went in and out since the start [M L^2/T^2];
-/// kinetic + elastic + damping_work - external_work stays constant but for the time integration's error.
+/// kinetic + elastic + contact + damping_work - external_work - support_work stays constant but for the time
+/// integration's error.
 struct EnergyLedger {
   double kinetic = 0;
-  double elastic = 0;
+  double elastic = 0;  ///< with that of elastic supports
+  double contact = 0;  ///< of the barriers between surfaces that come close
   double damping_work = 0;
   double external_work = 0;
+  double support_work = 0;  ///< done by supports that move
 };
 
 struct DynamicsOptions {
-  NewtonPolicy newton;
+  TimeScheme scheme = TimeScheme::newmark();
+  std::optional<ContactOptions> contact{};
+  NewtonPolicy newton{};
   double fold_limit = 75;  ///< a step that folds the shell by more over an edge is refused [degrees]
   LinearSolverKind linear_solver = LinearSolverKind::Direct;
+  double first_step = 0;  ///< length of it, for the rates of moving supports at the start; else not used
 };
 
 /// Where the tangent in use was taken, so that a restart can take it again.
 struct Linearisation {
   Eigen::VectorXd x;         ///< of the stiffness; empty: none, the next solve() takes a new one
   Eigen::VectorXd x_frozen;  ///< of the damping
-  double t = 0;
+  double t = 0;              ///< of the loads
+  double t_frozen = 0;
   double dt = 0;
 };
 
@@ -60,9 +57,8 @@ struct Checkpoint {
 };
 
 /// Solves M a + D v + f_int(x) = f_ext(x, t) + f_fluid step by step, with Rayleigh damping D = f_m M + f_k K_mat(x_n)
-/// frozen in the step. Newmark [newmark_1959_method]:
-///
-///   a = 4/dt^2 (x - x_n - dt v_n) - a_n,   v = v_n + dt/2 (a_n + a).
+/// frozen in the step, by a TimeScheme. What supports hold follows their motion: positions, and rates by differences in
+/// time, so that an average acceleration does not make them ring.
 ///
 /// solve() only computes; the accepted state changes in accept() alone, so a step can be repeated with other fluid
 /// forces. The factorised tangent is kept, across steps too, for as long as it converges fast: a repeated solve() costs
@@ -75,37 +71,65 @@ class Dynamics {
   };
 
   /// Start at rest in the reference configuration, or with velocity v0; the acceleration follows from equilibrium.
-  /// Keeps a reference to the shell. \throws InputError when the density is zero.
+  /// Keeps a reference to the shell. \throws InputError when the density is zero or a support is elsewhere at t0.
   Dynamics(const Shell& shell, const std::vector<Load>& loads, DynamicsOptions options = {}, double t0 = 0,
            const Eigen::VectorXd& v0 = {});
 
   const Shell& shell() const { return shell_; }
   const State& accepted() const { return state_; }
   const EnergyLedger& ledger() const { return ledger_; }
+  /// Contact in the accepted state; null without it.
+  const ContactStep* contact() const { return contact_.get(); }
   int step() const { return step_; }
 
   Checkpoint checkpoint() const;
   /// Go on from a checkpoint of the same shell, loads and options.
   void restore(const Checkpoint& checkpoint);
 
-  /// Second-order extrapolation x + dt v + dt^2/2 a, held displacements kept.
+  /// Second-order extrapolation x + dt v + dt^2/2 a, with what supports hold in its place.
   Eigen::VectorXd predicted_positions(double dt) const;
+  /// Rates at t + dt that the scheme gives to new positions, those of the supports where they hold.
   Kinematics kinematics(const Eigen::VectorXd& positions, double dt) const;
 
-  /// Positions at t_new = t + dt in equilibrium with the fluid's nodal forces (3n), starting Newton from `guess`.
+  /// Positions at t_new = t + dt in balance with the fluid's nodal forces (3n) at t_new, starting Newton from `guess`.
   /// \throws RunError naming the step, time and place when there is no equilibrium.
   Trial solve(double t_new, double dt, const Eigen::VectorXd& fluid_forces, const Eigen::VectorXd& guess);
 
-  /// Make positions, with Newmark's velocity and acceleration, the accepted state.
+  /// Make positions, with the scheme's velocity and acceleration, the accepted state.
   /// \throws RunError naming the place when the shell folds by more than the limit over an edge; the state is
   /// unchanged.
   Folds accept(const Eigen::VectorXd& positions, double t_new, double dt, const Eigen::VectorXd& fluid_forces);
 
  private:
-  Eigen::VectorXd consistent_acceleration() const;
+  /// What the balance of one step is made of, besides the new positions.
+  struct StepTerms {
+    LoadsAtTime loads;
+    Images images;
+    Eigen::VectorXd fluid;
+    Held::HeldRates held;
+    double t;  ///< of the balance
+    double dt;
+  };
+
+  void start(const Eigen::VectorXd& v0);
+  Eigen::VectorXd consistent_acceleration(const Eigen::VectorXd& held) const;
   Eigen::VectorXd damping_force(const Eigen::VectorXd& v) const;
-  void freeze_damping(const Eigen::VectorXd& x);
-  void assemble_tangent(const Eigen::VectorXd& x, const LoadsAtTime& loads, double dt, BlockMatrix& K) const;
+  void freeze_damping(const Eigen::VectorXd& x, double t);
+  Held::HeldRates held_rates(double dt) const;
+  Kinematics kinematics(const Eigen::VectorXd& positions, double dt, const Held::HeldRates& held) const;
+  void assemble_tangent(const Eigen::VectorXd& x, const Images& images, const LoadsAtTime& loads, double dt,
+                        BlockMatrix& K) const;
+  Eigen::VectorXd out_of_balance(const Eigen::VectorXd& x, const Images& images, const Kinematics& k,
+                                 const Eigen::VectorXd& forces) const;
+  Eigen::VectorXd support_forces(const Eigen::VectorXd& x, double t, const Kinematics& k,
+                                 const Eigen::VectorXd& forces) const;
+  Eigen::VectorXd configuration(const Eigen::VectorXd& x_new) const;
+  StepTerms step_terms(double t_new, double dt, const Eigen::VectorXd& fluid_forces,
+                       const Eigen::VectorXd& placed) const;
+  SmoothBalance smooth_balance(const StepTerms& terms) const;
+  Eigen::VectorXd support_forces() const;
+  void book_support_work(const State& before, const Eigen::VectorXd& at_midpoint);
+  void book_work(const State& before, const Eigen::VectorXd& fluid_forces);
   std::string when(double t_new) const;
 
   const Shell& shell_;
@@ -115,10 +139,12 @@ class Dynamics {
   EnergyLedger ledger_;
   Eigen::VectorXd prescribed_forces_;  ///< of the accepted state
   Eigen::VectorXd fluid_forces_;       ///< of the accepted state
+  Eigen::VectorXd support_forces_;     ///< of the accepted state, where a support moves
   BlockMatrix damping_;
   KeptTangent tangent_;
   Linearisation linearisation_;
-  bool slow_ = false;  ///< a solve since the last accept took many iterations
+  std::unique_ptr<ContactStep> contact_;  ///< null: none
+  bool slow_ = false;                     ///< a solve since the last accept took many iterations
   int step_ = 0;
 };
 

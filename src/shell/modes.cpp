@@ -37,6 +37,7 @@ class Pencil {
         solver_(make_linear_solver(LinearSolverKind::Direct, *shell.pattern(), shell.held()))
   {
     shell_.add_mass(1, M_);
+    shell_.supports().decouple(M_);
     mass_unit_ = mean_diagonal(M_, unknowns_.entries());
     shift_ = least_shift * mean_diagonal(K_, unknowns_.entries()) / mass_unit_;
     while (eigenvalues_below(-shift_) > 0)
@@ -64,7 +65,11 @@ class Pencil {
 
   void mass_times(const double* x, double* Mx) const
   {
-    Eigen::Map<Eigen::VectorXd>(Mx, size()) = unknowns_.restricted(shell_.mass_times(expanded(x))) / mass_unit_;
+    Eigen::VectorXd v = expanded(x);
+    shell_.clear_held(v);
+    v = shell_.mass_times(v);
+    shell_.clear_held(v);
+    Eigen::Map<Eigen::VectorXd>(Mx, size()) = unknowns_.restricted(v) / mass_unit_;
   }
 
   Eigen::VectorXd expanded(const double* x) const
@@ -160,6 +165,7 @@ Modes dense_modes(const Shell& shell, const BlockMatrix& K, int count)
   const std::vector<int>& free = unknowns.entries();
   BlockMatrix M(shell.pattern());
   shell.add_mass(1, M);
+  shell.supports().decouple(M);
   const Eigen::MatrixXd K_free = K.dense()(free, free), M_free = M.dense()(free, free);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(K_free, M_free);
   Modes modes{solver.eigenvalues().head(count), Eigen::MatrixXd::Zero(3 * shell.n_vertices(), count)};
@@ -209,9 +215,13 @@ void check_modes(const Shell& shell, int count)
     fail_input("shell '{}': density = 0 gives no vibrations; it must be above 0", shell.name());
 }
 
-Modes natural_modes(const Shell& shell, const BlockMatrix& K, int count)
+Modes natural_modes(const Shell& shell, const BlockMatrix& stiffness, int count)
 {
   check_modes(shell, count);
+  // What is held along no axis vibrates alone, far above all else.
+  constexpr double far_above = 1e6;
+  BlockMatrix K = stiffness;
+  shell.supports().decouple(K, far_above);
   // Below this, or when many of all modes are wanted, the dense solver is as fast and needs no shift.
   constexpr int small = 150;
   const auto n_free = FreeUnknowns(shell.held()).size();

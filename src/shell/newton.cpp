@@ -40,17 +40,18 @@ void check_finite(const Shell& shell, const Eigen::VectorXd& r, const Eigen::Vec
   const int v = static_cast<int>(first / 3);
   const PieceRange& piece = shell.piece_of_vertex(v);
   const Vec3 now = x.segment<3>(3 * v);
-  fail_run(
+  fail_to_converge(  // a shorter step may: tissue that a trial step turns inside out has no finite force
       "{}: shell '{}': the force on vertex {} at ({:.6g}, {:.6g}, {:.6g}) is no number: a load's formula gives none "
       "there, or the run diverged; mend the formula or take smaller steps",
       when, piece.name, v - piece.first_vertex, now.x(), now.y(), now.z());
 }
 
-void renew(const Equilibrium& equilibrium, const Eigen::VectorXd& x, KeptTangent& tangent)
+void renew(const Shell& shell, const Equilibrium& equilibrium, const Eigen::VectorXd& x, KeptTangent& tangent)
 {
   tangent.K.set_zero();
   equilibrium.tangent(x, tangent.K);
-  tangent.solver->factorise(tangent.K);
+  shell.supports().decouple(tangent.K);
+  tangent.factorisation = tangent.solver->factorise(tangent.K);
   tangent.valid = true;
 }
 
@@ -85,8 +86,9 @@ NewtonReport newton(const Shell& shell, const Equilibrium& equilibrium, const Ne
     Eigen::VectorXd dx;
     try {
       if (renewed)
-        renew(equilibrium, x, tangent);
-      dx = tangent.solver->solve(r);
+        renew(shell, equilibrium, x, tangent);
+      dx = equilibrium.increment ? equilibrium.increment(x, r, *tangent.solver) : tangent.solver->solve(r);
+      report.negative_pivots = tangent.factorisation.negative_pivots;
     } catch (const RunError& error) {
       fail_run("{}: shell '{}': {}", when, shell.name(), error.what());
     }

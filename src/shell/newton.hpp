@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct NewtonReport {
   double increment = 0;  ///< last one, relative to the size
   double residual = 0;   ///< Euclidean norm of the last out-of-balance force evaluated [M L/T^2]
   bool stopped_at_round_off = false;
+  /// Of the last tangent: directions in which the equilibrium is unstable; unknown to conjugate gradients.
+  std::optional<int> negative_pivots;
   std::vector<double> residuals;  ///< of every iteration
   std::vector<double> increments;
 };
@@ -33,6 +36,9 @@ struct NewtonReport {
 struct Equilibrium {
   std::function<Eigen::VectorXd(const Eigen::VectorXd& x)> residual;      ///< external minus internal forces
   std::function<void(const Eigen::VectorXd& x, BlockMatrix& K)> tangent;  ///< sets K = -d residual / d x
+  /// Increment of x from the residual r and the factorised tangent; K^-1 r when absent. With a load factor among the
+  /// unknowns it finds and applies the factor's increment too.
+  std::function<Eigen::VectorXd(const Eigen::VectorXd& x, const Eigen::VectorXd& r, LinearSolver& solver)> increment{};
 };
 
 /// A linear solver with the tangent it was given last.
@@ -43,7 +49,8 @@ struct KeptTangent {
   }
   BlockMatrix K;
   std::unique_ptr<LinearSolver> solver;
-  bool valid = false;  ///< may be used as it is
+  Factorisation factorisation;  ///< of K
+  bool valid = false;           ///< may be used as it is
 };
 
 /// Move the free displacements of x into equilibrium.

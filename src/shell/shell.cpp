@@ -47,7 +47,7 @@ Shell::Shell(std::vector<Piece> pieces)
   topology_ = surface::topology(reference_);
   reference_positions_ = surface::interleaved(reference_.vertices);
   for (Element& e : elements_)
-    e.kappa_0 = kinematics(e, gather(e, reference_positions_)).kappa;
+    e.kappa_0 = kinematics(e, gather(e, reference_positions_, images_)).kappa;
   make_pattern();
   colour_elements();
   make_mass();
@@ -58,17 +58,19 @@ void Shell::append(Piece piece)
   surface::validate(piece.reference, "shell '" + piece.name + "'");
   validate(piece.properties, piece.name);
   const surface::Topology topology = surface::topology(piece.reference);
-  const Constraints held = constraints(piece.reference, topology, piece.supports, piece.name);
+  const Constraints supports = constraints(piece.reference, topology, piece.supports, piece.name);
   const Mat3 moduli = reference_moduli(piece.properties.material);
   const BendingOperator bending =
-      bending_operator(piece.properties.bending, piece.reference, topology, held.mirrors, moduli, piece.name);
+      bending_operator(piece.properties.bending, piece.reference, topology, supports.mirrors, moduli, piece.name);
   const int first_vertex = n_vertices();
   pieces_.push_back({piece.name, piece.properties, first_vertex, piece.reference.n_vertices(), reference_.n_triangles(),
                      piece.reference.n_triangles()});
   sections_.push_back(
       make_section(piece.properties.material, piece.properties.thickness, piece.properties.thickness_points));
   append_elements(piece, bending, first_vertex);
-  held_.insert(held_.end(), held.held.begin(), held.held.end());
+  append_mirrors(piece, supports, first_vertex);
+  held_.append(supports.held);
+  springs_.append(supports.springs, first_vertex);
   reference_.vertices.insert(reference_.vertices.end(), piece.reference.vertices.begin(),
                              piece.reference.vertices.end());
   for (const auto& [a, b, c] : piece.reference.triangles)
@@ -81,7 +83,11 @@ void Shell::append_elements(const Piece& piece, const BendingOperator& bending, 
 {
   const std::vector<Fibre> fibres = fibres_in_triangles(piece.reference, piece.fibres, piece.name);
   const int first_image = static_cast<int>(images_.size());
-  images_.insert(images_.end(), bending.images.begin(), bending.images.end());
+  for (Image image : bending.images) {
+    for (int& mirror : image.mirrors)
+      mirror += static_cast<int>(mirrors_.size());
+    images_.push_back(image);
+  }
   for (int t = 0; t < piece.reference.n_triangles(); ++t) {
     const auto& stencil = bending.stencils[t];
     ensure(stencil.size() <= max_nodes, "a bending stencil has more nodes than the element holds");
@@ -108,6 +114,36 @@ void Shell::append_elements(const Piece& piece, const BendingOperator& bending, 
     worst_conic_triangle_ = pieces_.back().first_triangle + bending.worst_triangle;
   }
   n_hinge_patches_ += bending.n_replaced;
+}
+
+void Shell::append_mirrors(const Piece& piece, const Constraints& supports, int first_vertex)
+{
+  const int first_motion = static_cast<int>(held_.motions.size());
+  for (const MirrorEdge& mirror : supports.mirrors) {
+    const auto [a, b] = surface::edge_vertices(piece.reference.triangles[mirror.edge.triangle], mirror.edge.edge);
+    const int motion = mirror.motion < 0 ? -1 : mirror.motion + first_motion;
+    mirrors_.push_back({mirror.normal, a + first_vertex, b + first_vertex, motion});
+  }
+}
+
+/// Mirrors that move: normal R n, through the middle of the edge where x has it.
+Images Shell::images_at(const Eigen::VectorXd& x, double t, double factor) const
+{
+  Images now = images_;
+  for (Image& image : now) {
+    if (image.mirrors.empty())
+      continue;
+    Image chain{Mat3::Identity(), Vec3::Zero()};
+    for (const int m : image.mirrors) {
+      const Mirror& mirror = mirrors_[m];
+      const Mat3 R = mirror.motion < 0 ? Mat3::Identity() : held_.motions[mirror.motion].turn(t, factor);
+      const Vec3 middle = 0.5 * (x.segment<3>(3 * mirror.a) + x.segment<3>(3 * mirror.b));
+      chain = compose(chain, reflection(R * mirror.normal, middle));
+    }
+    image.T = chain.T;
+    image.t = chain.t;
+  }
+  return now;
 }
 
 const PieceRange& Shell::piece_of_vertex(int vertex) const
@@ -171,10 +207,15 @@ void Shell::make_mass()
 {
   std::vector<Eigen::Triplet<double>> entries;
   for (const PieceRange& piece : pieces_)
-    for (int t = piece.first_triangle; t < piece.first_triangle + piece.n_triangles; ++t)
+    for (int t = piece.first_triangle; t < piece.first_triangle + piece.n_triangles; ++t) {
+      const double mass = piece.properties.mass_per_area() * elements_[t].area;
       for (const int i : reference_.triangles[t])
         for (const int j : reference_.triangles[t])
-          entries.emplace_back(i, j, piece.properties.mass_per_area() * elements_[t].area * (i == j ? 2 : 1) / 12);
+          if (!piece.properties.lumped_mass)
+            entries.emplace_back(i, j, mass * (i == j ? 2 : 1) / 12);
+          else if (i == j)
+            entries.emplace_back(i, i, mass / 3);
+    }
   mass_.resize(n_vertices(), n_vertices());
   mass_.setFromTriplets(entries.begin(), entries.end());
   for (int row = 0; row < mass_.outerSize(); ++row)
@@ -182,7 +223,7 @@ void Shell::make_mass()
       mass_slot_.push_back(pattern_->slot(row, static_cast<int>(entry.col())));
 }
 
-NodePositions Shell::gather(const Element& e, const Eigen::VectorXd& x) const
+NodePositions Shell::gather(const Element& e, const Eigen::VectorXd& x, const Images& images) const
 {
   const Vec3 origin = x.segment<3>(3 * e.vertex[0]);
   NodePositions y;
@@ -191,7 +232,7 @@ NodePositions Shell::gather(const Element& e, const Eigen::VectorXd& x) const
   if (e.has_images)
     for (int i = 3; i < e.n_nodes; ++i)
       if (e.image[i] >= 0) {
-        const Image& image = images_[e.image[i]];
+        const Image& image = images[e.image[i]];
         y.col(i) = image.T * x.segment<3>(3 * e.vertex[i]) + image.t - origin;
       }
   return y;
@@ -217,83 +258,118 @@ void Shell::for_each_element(Body body) const
   }
 }
 
-double Shell::elastic_energy(const Eigen::VectorXd& x) const
+/// The same, one element after the other.
+template <class Body>
+void Shell::for_each_element_in_order(Body body) const
 {
-  double sum = 0;
   for (std::size_t p = 0; p < pieces_.size(); ++p)
     std::visit(
         [&](const auto& section) {
-          for (int t = pieces_[p].first_triangle; t < pieces_[p].first_triangle + pieces_[p].n_triangles; ++t) {
-            const Element& e = elements_[t];
-            const ElementKinematics k = kinematics(e, gather(e, x));
-            sum += e.area * section.energy(k.E_membrane, k.E_bending, e.fibre);
-          }
+          for (int e = pieces_[p].first_triangle; e < pieces_[p].first_triangle + pieces_[p].n_triangles; ++e)
+            body(section, e);
         },
         sections_[p]);
+}
+
+double Shell::elastic_energy(const Eigen::VectorXd& x, const Images& images) const
+{
+  double sum = springs_.energy(reference_positions_, x);
+  for_each_element_in_order([&](const auto& section, int index) {
+    const Element& e = elements_[index];
+    const ElementKinematics k = kinematics(e, gather(e, x, images));
+    sum += e.area * section.energy(k.E_membrane, k.E_bending, e.fibre);
+  });
   return sum;
 }
 
-Eigen::VectorXd Shell::internal_force(const Eigen::VectorXd& x) const
+Eigen::VectorXd Shell::internal_force(const Eigen::VectorXd& x, const Images& images) const
 {
   Eigen::VectorXd f = Eigen::VectorXd::Zero(x.size());
   for_each_element([&](const auto& section, int index) {
     const Element& e = elements_[index];
-    const ElementKinematics k = kinematics(e, gather(e, x));
+    const ElementKinematics k = kinematics(e, gather(e, x, images));
     const NodeForces nodal = nodal_forces(e, k, section.resultants(k.E_membrane, k.E_bending, e.fibre));
     for (int i = 0; i < e.n_nodes; ++i) {
       if (e.image[i] < 0)
         f.segment<3>(3 * e.vertex[i]) += nodal.col(i);
       else
-        f.segment<3>(3 * e.vertex[i]) += images_[e.image[i]].T.transpose() * nodal.col(i);
+        f.segment<3>(3 * e.vertex[i]) += images[e.image[i]].T.transpose() * nodal.col(i);
     }
   });
+  springs_.add_force(reference_positions_, x, f);
   return f;
 }
 
+/// Mean of the forces on the images at both ends times the way that T and t carry them, (T_1 - T_0) x + t_1 - t_0.
+double Shell::image_work(const Eigen::VectorXd& x_0, const Images& images_0, const Eigen::VectorXd& x_1,
+                         const Images& images_1) const
+{
+  double work = 0;
+  for_each_element_in_order([&](const auto& section, int index) {
+    const Element& e = elements_[index];
+    if (!e.has_images)
+      return;
+    const auto forces = [&](const Eigen::VectorXd& x, const Images& images) {
+      const ElementKinematics k = kinematics(e, gather(e, x, images));
+      return nodal_forces(e, k, section.resultants(k.E_membrane, k.E_bending, e.fibre));
+    };
+    const NodeForces mean = 0.5 * (forces(x_0, images_0) + forces(x_1, images_1));
+    for (int i = 0; i < e.n_nodes; ++i)
+      if (e.image[i] >= 0) {
+        const Image &before = images_0[e.image[i]], &after = images_1[e.image[i]];
+        const Vec3 x = 0.5 * (x_0.segment<3>(3 * e.vertex[i]) + x_1.segment<3>(3 * e.vertex[i]));
+        work += mean.col(i).dot((after.T - before.T) * x + after.t - before.t);
+      }
+  });
+  return work;
+}
+
 /// K += factor * tangent. Chain rule through the images, K_xx' = T' K_yy' T'.
-void Shell::scatter(int index, const ElementTangent& tangent, double factor, BlockMatrix& K) const
+void Shell::scatter(int index, const ElementTangent& tangent, const Images& images, double factor, BlockMatrix& K) const
 {
   const Element& e = elements_[index];
   for (int i = 0; i < e.n_nodes; ++i)
     for (int j = 0; j < e.n_nodes; ++j) {
       Mat3 block = tangent.block(i, j);
       if (e.image[i] >= 0)
-        block = (images_[e.image[i]].T.transpose() * block).eval();
+        block = (images[e.image[i]].T.transpose() * block).eval();
       if (e.image[j] >= 0)
-        block = (block * images_[e.image[j]].T).eval();
+        block = (block * images[e.image[j]].T).eval();
       K.block(slots_[index][max_nodes * i + j]) += factor * block;
     }
 }
 
-void Shell::add_tangent(const Eigen::VectorXd& x, BlockMatrix& K) const
+void Shell::add_tangent(const Eigen::VectorXd& x, const Images& images, BlockMatrix& K) const
 {
   for_each_element([&](const auto& section, int index) {
     const Element& e = elements_[index];
-    const ElementKinematics k = kinematics(e, gather(e, x));
+    const ElementKinematics k = kinematics(e, gather(e, x, images));
     const SectionResponse response = section.response(k.E_membrane, k.E_bending, e.fibre);
     ElementTangent tangent = material_tangent(e, k, response.stiffness, section.couples);
     add_geometric_tangent(e, k, response.resultants, tangent);
-    scatter(index, tangent, 1, K);
+    scatter(index, tangent, images, 1, K);
   });
+  springs_.add_stiffness(x, K);
 }
 
 void Shell::add_material_stiffness(const Eigen::VectorXd& x, BlockMatrix& K) const
 {
   add_material_stiffness(
-      x, [](const Properties&) { return 1.0; }, K);
+      x, images_, [](const Properties&) { return 1.0; }, K);
 }
 
 template <class Factor>
-void Shell::add_material_stiffness(const Eigen::VectorXd& x, Factor factor_of_piece, BlockMatrix& K) const
+void Shell::add_material_stiffness(const Eigen::VectorXd& x, const Images& images, Factor factor_of_piece,
+                                   BlockMatrix& K) const
 {
   for_each_element([&](const auto& section, int index) {
     const Element& e = elements_[index];
     const double factor = factor_of_piece(piece_of_vertex(e.vertex[0]).properties);
     if (factor == 0)
       return;
-    const ElementKinematics k = kinematics(e, gather(e, x));
+    const ElementKinematics k = kinematics(e, gather(e, x, images));
     scatter(index, material_tangent(e, k, section.stiffness(k.E_membrane, k.E_bending, e.fibre), section.couples),
-            factor, K);
+            images, factor, K);
   });
 }
 
@@ -304,7 +380,7 @@ bool Shell::is_damped() const
   });
 }
 
-void Shell::add_damping(const Eigen::VectorXd& x, BlockMatrix& D) const
+void Shell::add_damping(const Eigen::VectorXd& x, const Images& images, BlockMatrix& D) const
 {
   for (int row = 0; row < mass_.outerSize(); ++row) {
     const double f_m = piece_of_vertex(row).properties.damping_mass;
@@ -312,7 +388,7 @@ void Shell::add_damping(const Eigen::VectorXd& x, BlockMatrix& D) const
       D.block(mass_slot_[s]).diagonal().array() += f_m * mass_.valuePtr()[s];
   }
   add_material_stiffness(
-      x, [](const Properties& p) { return p.damping_stiffness; }, D);
+      x, images, [](const Properties& p) { return p.damping_stiffness; }, D);
 }
 
 Eigen::VectorXd Shell::mass_times(const Eigen::VectorXd& v) const
@@ -340,13 +416,6 @@ BlockMatrix Shell::mass_matrix() const
   for (int s = 0; s < mass_.nonZeros(); ++s)
     M.block(s).diagonal().setConstant(mass_.valuePtr()[s]);
   return M;
-}
-
-void Shell::clear_held(Eigen::VectorXd& v) const
-{
-  for (std::size_t i = 0; i < held_.size(); ++i)
-    if (held_[i])
-      v[static_cast<Eigen::Index>(i)] = 0;
 }
 
 }  // namespace luff::shell

@@ -61,19 +61,32 @@ class Shell {
   /// Diagonal of the bounding box of the largest piece's reference [L].
   double size() const { return size_; }
   const Eigen::VectorXd& reference_positions() const { return reference_positions_; }
-  /// 3n flags: 1 where the displacement is held at zero.
-  const std::vector<char>& held() const { return held_; }
+  /// What supports hold, and where they take it.
+  const Held& supports() const { return held_; }
+  /// 3n flags: 1 where a component of the displacement is held.
+  const std::vector<char>& held() const { return held_.flags; }
   const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
   const std::vector<Element>& elements() const { return elements_; }
 
-  double elastic_energy(const Eigen::VectorXd& x) const;
+  /// Images of vertices beyond clamped and symmetry edges at time t, with what supports hold in configuration x as they
+  /// hold it; the reference's where no support moves. A factor other than 1 takes that part of the supports' motion.
+  Images images_at(const Eigen::VectorXd& x, double t, double factor = 1) const;
+
+  /// Of the shell and of elastic supports. Like the next ones with the images of the reference when none are given.
+  double elastic_energy(const Eigen::VectorXd& x, const Images& images) const;
+  double elastic_energy(const Eigen::VectorXd& x) const { return elastic_energy(x, images_); }
   /// Gradient of elastic_energy.
-  Eigen::VectorXd internal_force(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd internal_force(const Eigen::VectorXd& x, const Images& images) const;
+  Eigen::VectorXd internal_force(const Eigen::VectorXd& x) const { return internal_force(x, images_); }
   /// K += Hessian of elastic_energy.
-  void add_tangent(const Eigen::VectorXd& x, BlockMatrix& K) const;
-  /// K += its part A B'DB: positive semi-definite, without force on rigid motions.
+  void add_tangent(const Eigen::VectorXd& x, const Images& images, BlockMatrix& K) const;
+  void add_tangent(const Eigen::VectorXd& x, BlockMatrix& K) const { add_tangent(x, images_, K); }
+  /// K += the part A B'DB of the shell: positive semi-definite, without force on rigid motions.
   void add_material_stiffness(const Eigen::VectorXd& x, BlockMatrix& K) const;
-  /// Consistent mass times a vector, M_ij = rho h A (1 + delta_ij)/12.
+  /// Work that the images do on the shell when they move while it goes from x_0 to x_1.
+  double image_work(const Eigen::VectorXd& x_0, const Images& images_0, const Eigen::VectorXd& x_1,
+                    const Images& images_1) const;
+  /// Mass times a vector, M_ij = rho h A (1 + delta_ij)/12, or rho h A/3 on the diagonal where it is lumped.
   Eigen::VectorXd mass_times(const Eigen::VectorXd& v) const;
   /// K += factor * mass.
   void add_mass(double factor, BlockMatrix& K) const;
@@ -82,10 +95,11 @@ class Shell {
   /// Has any piece Rayleigh damping?
   bool is_damped() const;
   /// D += f_m M + f_k K_mat(x), with each piece's factors; K_mat as in add_material_stiffness.
-  void add_damping(const Eigen::VectorXd& x, BlockMatrix& D) const;
+  void add_damping(const Eigen::VectorXd& x, const Images& images, BlockMatrix& D) const;
+  void add_damping(const Eigen::VectorXd& x, BlockMatrix& D) const { add_damping(x, images_, D); }
 
   /// Put zeros where the displacement is held.
-  void clear_held(Eigen::VectorXd& v) const;
+  void clear_held(Eigen::VectorXd& v) const { held_.clear(v); }
 
   /// Largest conic degeneracy q of a bending patch, its triangle, and how many patches use hinge angles instead.
   double worst_conic() const { return worst_conic_; }
@@ -102,12 +116,23 @@ class Shell {
 
   void append(Piece piece);
   void append_elements(const Piece& piece, const BendingOperator& bending, int first_vertex);
-  NodePositions gather(const Element& element, const Eigen::VectorXd& x) const;
+  /// A mirror at a boundary edge between the vertices a and b.
+  struct Mirror {
+    Vec3 normal;  ///< in the reference
+    int a, b;
+    int motion;  ///< number of the motion, or -1
+  };
+
+  NodePositions gather(const Element& element, const Eigen::VectorXd& x, const Images& images) const;
   template <class Body>
   void for_each_element(Body body) const;
+  template <class Body>
+  void for_each_element_in_order(Body body) const;
   template <class Factor>
-  void add_material_stiffness(const Eigen::VectorXd& x, Factor factor_of_piece, BlockMatrix& K) const;
-  void scatter(int element, const ElementTangent& tangent, double factor, BlockMatrix& K) const;
+  void add_material_stiffness(const Eigen::VectorXd& x, const Images& images, Factor factor_of_piece,
+                              BlockMatrix& K) const;
+  void scatter(int element, const ElementTangent& tangent, const Images& images, double factor, BlockMatrix& K) const;
+  void append_mirrors(const Piece& piece, const Constraints& constraints, int first_vertex);
   void make_pattern();
   void colour_elements();
   void colour_run(ElementRun run, std::vector<std::vector<char>>& taken);
@@ -121,8 +146,10 @@ class Shell {
   std::vector<Section> sections_;  ///< of each piece
   double size_ = 0;
   Eigen::VectorXd reference_positions_;
-  std::vector<char> held_;
-  std::vector<Image> images_;
+  Held held_;
+  Springs springs_;
+  std::vector<Mirror> mirrors_;
+  Images images_;  ///< of the reference
   std::vector<Element> elements_;
   std::shared_ptr<const BlockPattern> pattern_;
   std::vector<std::array<int, max_nodes * max_nodes>> slots_;  ///< of each element's blocks in the pattern

@@ -9,6 +9,9 @@
 #include <Eigen/Geometry>
 
 #include "core/error.hpp"
+#include "shell/proportional_load.hpp"
+#include "shell/settling.hpp"
+#include "shell/step_length.hpp"
 
 namespace luff::shell {
 
@@ -34,48 +37,107 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> rigid_motions(const Shell& shell)
 /// Follows the equilibrium as the load factor grows.
 class LoadPath {
  public:
-  LoadPath(const Shell& shell, const Loads& loads, const StaticOptions& options)
-      : shell_(shell), options_(options), loads_(loads.at(options.time)), tangent_(shell, options.linear_solver)
+  LoadPath(const Shell& shell, const std::vector<Load>& loads, const StaticOptions& options)
+      : options_(options),
+        problem_(shell, loads, options.time),
+        tangent_(shell, options.linear_solver),
+        length_(1.0 / options.steps,
+                options.stabilisation == Stabilisation::Damping ? few_halvings : options.max_halvings)
   {
+    now_.positions = shell.reference_positions();
   }
 
-  /// Move x from the equilibrium at load factor `from` to that at `to`; in two halves where that fails.
-  NewtonReport advance(Eigen::VectorXd& x, double from, double to, const std::string& when, int halvings_left)
+  /// The equilibrium at load factor step / steps.
+  const StaticStep& reach(int step)
   {
-    const Eigen::VectorXd start = x;
-    try {
-      return equilibrate(x, to, when);
-    } catch (const RunError&) {
-      if (halvings_left == 0)
-        throw;
-    }
-    x = start;
-    const double middle = 0.5 * (from + to);
-    advance(x, from, middle, when, halvings_left - 1);
-    return advance(x, middle, to, when, halvings_left - 1);
+    now_.step = step;
+    now_.iterations = now_.damped_iterations = 0;
+    const double mark = static_cast<double>(step) / options_.steps;
+    while (now_.load_factor < mark)
+      advance(length_.end(now_.load_factor, mark));
+    now_.folds = check_folds(problem_.shell(), now_.positions, options_.fold_limit, when(mark));
+    return now_;
   }
 
  private:
-  NewtonReport equilibrate(Eigen::VectorXd& x, double factor, const std::string& when)
+  /// A snap is found at a failed step; shorter ones would only place it more sharply.
+  static constexpr int few_halvings = 3;
+
+  /// To this load factor, or to none with a shorter step for the next attempt.
+  void advance(double factor)
   {
-    const Equilibrium equilibrium{
-        .residual = [&](const Eigen::VectorXd& y) -> Eigen::VectorXd {
-          return factor * loads_.force(y) - shell_.internal_force(y);
-        },
-        .tangent =
-            [&](const Eigen::VectorXd& y, BlockMatrix& K) {
-              shell_.add_tangent(y, K);
-              loads_.subtract_stiffness(y, factor, K);
-            },
-    };
-    tangent_.valid = false;
-    return newton(shell_, equilibrium, options_.newton, tangent_, x, when);
+    Eigen::VectorXd x = now_.positions;
+    try {
+      problem_.place_supports(factor, x);
+      equilibrate(x, factor);
+    } catch (const RunError& error) {
+      if (length_.halve())
+        return;
+      if (options_.stabilisation == Stabilisation::None)
+        fail(factor, error);
+      x = now_.positions;
+      problem_.place_supports(factor, x);
+      snap(x, factor);
+    }
+    now_.positions = x;
+    now_.load_factor = factor;
+    limit_met_ = false;
+    length_.succeeded();
   }
 
-  const Shell& shell_;
+  /// Newton's method. An equilibrium off the path counts as none; with damping to hand, an unstable one does too.
+  void equilibrate(Eigen::VectorXd& x, double factor)
+  {
+    tangent_.valid = false;
+    Equilibrium equilibrium = problem_.equilibrium(factor);
+    equilibrium.increment = [&](const Eigen::VectorXd&, const Eigen::VectorXd& r, LinearSolver& solver) {
+      limit_met_ = limit_met_ || tangent_.factorisation.negative_pivots.value_or(0) > 0;
+      return solver.solve(r);
+    };
+    now_.report = newton(problem_.shell(), equilibrium, options_.newton, tangent_, x, when(factor));
+    now_.iterations += now_.report.iterations;
+    const bool unstable = options_.stabilisation == Stabilisation::Damping && now_.report.negative_pivots != 0;
+    const double increment = factor - now_.load_factor;
+    // What a moving support takes along says nothing about a jump.
+    const bool jumped = !problem_.shell().supports().moves() &&
+                        has_jumped(now_.positions, x, increment * tangent_.solver->solve(problem_.load(x)),
+                                   options_.newton.round_off * problem_.shell().size());
+    if (unstable || jumped) {
+      limit_met_ = true;
+      fail_to_converge("{}: shell '{}' is unstable", when(factor), problem_.shell().name());
+    }
+  }
+
+  void snap(Eigen::VectorXd& x, double factor)
+  {
+    const SettlingReport settled = settle(problem_, factor, {.newton = options_.newton}, tangent_, x, when(factor));
+    now_.report = settled.newton;
+    now_.iterations += settled.newton.iterations;
+    now_.damped_iterations += settled.iterations;
+  }
+
+  [[noreturn]] void fail(double factor, const RunError& error) const
+  {
+    if (!limit_met_ || now_.load_factor == 0)
+      throw error;
+    fail_to_converge(
+        "{}: shell '{}' has met a limit point near load factor {:.4g} under load control: beyond, its stiffness has "
+        "negative pivots and no equilibrium is near; use analysis = \"arc-length\" or \"displacement-control\" to "
+        "follow it, stabilisation = \"damping\" to snap to the next stable shape, or analysis = \"dynamic\"",
+        when(factor), problem_.shell().name(), now_.load_factor);
+  }
+
+  std::string when(double factor) const
+  {
+    return fmt::format("static step {} of {}, load factor {:.6g}", now_.step, options_.steps, factor);
+  }
+
   const StaticOptions& options_;
-  LoadsAtTime loads_;
+  ProportionalLoad problem_;
   KeptTangent tangent_;
+  StepLength length_;
+  bool limit_met_ = false;  ///< unstable states were met since the last equilibrium
+  StaticStep now_;
 };
 
 }  // namespace
@@ -92,8 +154,9 @@ void check_supported(const Shell& shell)
   Eigen::Matrix<double, 6, 6> resistance;
   for (int j = 0; j < 6; ++j) {
     Eigen::VectorXd opposed = K * Eigen::VectorXd(R.col(j)) / largest;
-    for (std::size_t i = 0; i < shell.held().size(); ++i)
-      opposed[static_cast<Eigen::Index>(i)] += shell.held()[i] * R(static_cast<Eigen::Index>(i), j);
+    Eigen::VectorXd unheld = R.col(j);
+    shell.clear_held(unheld);
+    opposed += R.col(j) - unheld;
     resistance.col(j) = R.transpose() * opposed;
   }
   // Round-off of the products; the slope kept by a clamp of thickness h opposes with about (h/element)^2 / 100.
@@ -106,27 +169,42 @@ void check_supported(const Shell& shell)
         shell.name());
 }
 
-StaticStep solve_static(const Shell& shell, const std::vector<Load>& loads, const StaticOptions& options,
-                        const std::function<void(const StaticStep&)>& on_step)
+bool has_jumped(const Eigen::VectorXd& start, const Eigen::VectorXd& end, const Eigen::VectorXd& tangent,
+                double round_off)
+{
+  constexpr double much_longer = 5;
+  return (end - start).lpNorm<Eigen::Infinity>() > std::max(round_off, much_longer * tangent.lpNorm<Eigen::Infinity>());
+}
+
+void check_supports_rest(const Shell& shell, std::string_view analysis)
+{
+  if (shell.supports().moves())
+    fail_input("shell '{}': a support moves, which {} cannot follow; use analysis = \"static\" or \"dynamic\"",
+               shell.name(), analysis);
+}
+
+void check_static(const Shell& shell, const StaticOptions& options)
 {
   if (options.steps < 1)
     fail_input("shell '{}': static analysis with steps = {} must have at least 1", shell.name(), options.steps);
+  if (options.stabilisation == Stabilisation::Damping && options.linear_solver != LinearSolverKind::Direct)
+    fail_input("shell '{}': stabilisation by damping needs the direct solver, which tells stable from unstable",
+               shell.name());
   check_supported(shell);
-  LoadPath path(shell, Loads(shell, loads), options);
-  StaticStep now;
-  now.positions = shell.reference_positions();
+}
+
+StaticStep solve_static(const Shell& shell, const std::vector<Load>& loads, const StaticOptions& options,
+                        const OnStaticStep& on_step)
+{
+  check_static(shell, options);
+  LoadPath path(shell, loads, options);
+  StaticStep last;
   for (int step = 1; step <= options.steps; ++step) {
-    const double from = now.load_factor;
-    now.step = step;
-    now.load_factor = static_cast<double>(step) / options.steps;
-    const std::string when =
-        fmt::format("static step {} of {}, load factor {:.6g}", step, options.steps, now.load_factor);
-    now.report = path.advance(now.positions, from, now.load_factor, when, options.max_halvings);
-    now.folds = check_folds(shell, now.positions, options.fold_limit, when);
+    last = path.reach(step);
     if (on_step)
-      on_step(now);
+      on_step(last);
   }
-  return now;
+  return last;
 }
 
 }  // namespace luff::shell

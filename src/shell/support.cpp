@@ -2,10 +2,12 @@
 // How a shell is held.
 #include "shell/support.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 
 #include "core/error.hpp"
 #include "shell/edges.hpp"
@@ -18,7 +20,7 @@ using surface::Topology;
 using surface::TriangleEdge;
 using surface::TriangleMesh;
 
-constexpr const char* kind_names[] = {"clamped", "hinged", "symmetry", "fixed"};
+constexpr const char* kind_names[] = {"clamped", "hinged", "symmetry", "fixed", "elastic"};
 
 /// One support being applied, with what its messages need.
 struct Context {
@@ -34,16 +36,28 @@ struct Context {
   }
 };
 
-std::vector<char> selected(const Context& c)
+/// Vertices within this fraction of the mesh's size of a plane are in it.
+constexpr double in_plane = 1e-6;
+
+double size_of(const Context& c)
+{
+  return surface::bounding_box(c.mesh.vertices).size();
+}
+
+void check_vertices(const Context& c)
 {
   if (c.support.vertices.empty())
     fail_input("{}: it selects no vertex; widen its 'where'", c.name());
-  std::vector<char> flags(c.mesh.vertices.size(), 0);
-  for (const int v : c.support.vertices) {
+  for (const int v : c.support.vertices)
     if (v < 0 || v >= c.mesh.n_vertices())
       fail_input("{}: vertex {} is not in 0..{}", c.name(), v, c.mesh.n_vertices() - 1);
+}
+
+std::vector<char> selected(const Context& c)
+{
+  std::vector<char> flags(c.mesh.vertices.size(), 0);
+  for (const int v : c.support.vertices)
     flags[v] = 1;
-  }
   return flags;
 }
 
@@ -63,94 +77,221 @@ Vec3 in_plane_normal(const TriangleMesh& mesh, TriangleEdge side)
   return along.cross(surface::unit_normal(mesh, side.triangle)).normalized();
 }
 
-/// Normal of the symmetry plane, as given or as the mean over the edges; exactly along an axis.
-int symmetry_axis(const Context& c, const std::vector<TriangleEdge>& edges)
+/// Normal of the plane that the vertices of a symmetry are in: the mean over its edges, made normal to what the
+/// vertices span, so that edges of a curved shell, whose triangles meet the plane only nearly at a right angle, do as
+/// well.
+Vec3 fitted_normal(const Context& c, const std::vector<TriangleEdge>& edges)
 {
-  Vec3 normal = Vec3::Zero();
-  if (c.support.normal)
-    normal = *c.support.normal;
-  else
-    for (const TriangleEdge side : edges)
-      normal += in_plane_normal(c.mesh, side);
-  if (!(normal.norm() > 0))
+  Vec3 mean = Vec3::Zero();
+  for (const TriangleEdge side : edges)
+    mean += in_plane_normal(c.mesh, side);
+  if (!(mean.norm() > 0))
     fail_input("{}: it has no boundary edge to find its plane from; give its 'where' as a plane", c.name());
+  Eigen::Matrix<double, 3, Eigen::Dynamic> from_first(3, c.support.vertices.size());
+  for (std::size_t i = 0; i < c.support.vertices.size(); ++i)
+    from_first.col(i) = c.mesh.vertices[c.support.vertices[i]] - c.mesh.vertices[c.support.vertices.front()];
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(from_first, Eigen::ComputeFullU);
+  const auto& span = svd.singularValues();
+  for (int i = 0; i < std::min<int>(2, static_cast<int>(span.size())); ++i)
+    if (span[i] > in_plane * std::sqrt(static_cast<double>(from_first.cols())) * size_of(c))
+      mean -= svd.matrixU().col(i).dot(mean) * svd.matrixU().col(i);
+  return mean;
+}
+
+/// Normal of the symmetry plane, as given or as fitted; exactly along an axis where it is nearly so.
+Vec3 symmetry_normal(const Context& c, const std::vector<TriangleEdge>& edges)
+{
+  Vec3 normal = c.support.normal ? *c.support.normal : fitted_normal(c, edges);
+  if (!(normal.norm() > (c.support.normal ? 0 : in_plane * static_cast<double>(edges.size()))))
+    fail_input("{}: its plane has no normal: the edges selected are not in one plane", c.name());
   normal.normalize();
   int axis = 0;
-  const double largest = normal.cwiseAbs().maxCoeff(&axis);
-  // A given plane must lie along an axis; one found from the edges of a curved shell need only be close to it.
-  const double slack = c.support.normal ? 1e-9 : 0.05;
-  if (largest < 1 - slack)
-    fail_input("{}: its plane has normal [{}, {}, {}]; symmetry planes must be normal to x, y or z; turn the shell",
-               c.name(), normal.x(), normal.y(), normal.z());
-  return axis;
+  constexpr double round_off = 1e-9;
+  if (normal.cwiseAbs().maxCoeff(&axis) > 1 - round_off)
+    normal = Vec3::Unit(axis);
+  return normal;
 }
 
-void require_one_plane(const Context& c, int axis)
+void require_one_plane(const Context& c, const Vec3& normal)
 {
-  const double at = c.mesh.vertices[c.support.vertices.front()][axis];
-  const double slack = 1e-6 * surface::bounding_box(c.mesh.vertices).size();
-  for (const int v : c.support.vertices)
-    if (std::abs(c.mesh.vertices[v][axis] - at) > slack)
-      fail_input("{}: vertex {} at {} = {} is not in the plane {} = {} of vertex {}", c.name(), v, "xyz"[axis],
-                 c.mesh.vertices[v][axis], "xyz"[axis], at, c.support.vertices.front());
+  const Vec3& first = c.mesh.vertices[c.support.vertices.front()];
+  for (const int v : c.support.vertices) {
+    const double distance = normal.dot(c.mesh.vertices[v] - first);
+    if (std::abs(distance) > in_plane * size_of(c))
+      fail_input("{}: vertex {} is {:.3g} away from the plane through vertex {} with normal [{:.6g}, {:.6g}, {:.6g}]",
+                 c.name(), v, std::abs(distance), c.support.vertices.front(), normal.x(), normal.y(), normal.z());
+  }
 }
 
-/// Collects flags and mirrors; a clamp overrides a symmetry on the same edge.
+/// What holds one vertex.
+struct VertexHold {
+  std::array<bool, 3> component{false, false, false};
+  std::array<int, 3> motion{-1, -1, -1};  ///< of each component, -1: at rest
+  std::vector<Vec3> normals;              ///< held directions that are no axes
+};
+
+/// Orthonormal directions, in columns, that span all that holds the vertex.
+Eigen::Matrix<double, 3, Eigen::Dynamic> held_directions(const VertexHold& hold)
+{
+  std::vector<Vec3> directions = hold.normals;
+  for (int d = 0; d < 3; ++d)
+    if (hold.component[d])
+      directions.insert(directions.begin(), Vec3::Unit(d));
+  Eigen::Matrix<double, 3, Eigen::Dynamic> basis(3, 0);
+  constexpr double parallel = 1e-6;
+  for (Vec3 n : directions) {
+    n -= (basis * (basis.transpose() * n)).eval();
+    if (n.norm() < parallel)
+      continue;
+    basis.conservativeResize(3, basis.cols() + 1);
+    basis.rightCols<1>() = n.normalized();
+  }
+  return basis;
+}
+
+/// Collects what holds each vertex, mirrors and springs; a clamp overrides a symmetry on the same edge, and a support
+/// that moves one that rests.
 class Builder {
  public:
-  explicit Builder(int n_vertices) : held_(3 * static_cast<std::size_t>(n_vertices), 0) {}
+  explicit Builder(int n_vertices) : holds_(n_vertices) {}
 
   void apply(const Context& c)
   {
-    const std::vector<char> flags = selected(c);
+    if (c.support.motion && (c.support.kind == SupportKind::Symmetry || c.support.kind == SupportKind::Elastic))
+      fail_input("{}: it has a motion, but only clamped, hinged and fixed supports move", c.name());
+    check_vertices(c);
     const std::vector<TriangleEdge> edges = boundary_edges(c.mesh, c.topology, c.support.vertices);
+    const int motion = add_motion(c.support);
     switch (c.support.kind) {
       case SupportKind::Clamped:
-        if (edges.empty() && !contains_triangle(c.mesh, flags))
-          fail_input(
-              "{}: it selects no boundary edge, so there is no slope to keep; use 'hinged' or widen its "
-              "'where' to both ends of an edge",
-              c.name());
-        hold(c, {true, true, true});
-        for (const TriangleEdge side : edges)
-          mirrors_[{side.triangle, side.edge}] = in_plane_normal(c.mesh, side);
+        clamp(c, edges, motion);
         break;
-      case SupportKind::Symmetry: {
-        const int axis = symmetry_axis(c, edges);
-        require_one_plane(c, axis);
-        hold(c, {axis == 0, axis == 1, axis == 2});
-        for (const TriangleEdge side : edges)
-          mirrors_.try_emplace({side.triangle, side.edge}, Vec3::Unit(axis));
+      case SupportKind::Symmetry:
+        mirror(c, edges);
         break;
-      }
       case SupportKind::Hinged:
-        hold(c, {true, true, true});
+        hold(c, {true, true, true}, motion);
         break;
       case SupportKind::Fixed:
-        hold(c, c.support.components);
+        hold(c, c.support.components, motion);
+        break;
+      case SupportKind::Elastic:
+        suspend(c, edges);
         break;
     }
   }
 
-  Constraints result() const
+  Constraints result(const TriangleMesh& mesh, std::string_view shell)
   {
-    Constraints all{held_, {}};
-    for (const auto& [side, normal] : mirrors_)
-      all.mirrors.push_back({{side.first, side.second}, normal});
-    return all;
+    for (int v = 0; v < static_cast<int>(holds_.size()); ++v)
+      finish(v, holds_[v], mesh, shell);
+    for (const auto& [side, edge] : mirrors_)
+      all_.mirrors.push_back(edge);
+    return std::move(all_);
   }
 
  private:
-  void hold(const Context& c, std::array<bool, 3> components)
+  int add_motion(const Support& support)
   {
-    for (const int v : c.support.vertices)
-      for (int d = 0; d < 3; ++d)
-        if (components[d])
-          held_[3 * static_cast<std::size_t>(v) + d] = 1;
+    if (!support.motion)
+      return -1;
+    all_.held.motions.push_back(*support.motion);
+    return static_cast<int>(all_.held.motions.size()) - 1;
   }
 
-  std::vector<char> held_;
-  std::map<std::pair<int, int>, Vec3> mirrors_;
+  void clamp(const Context& c, const std::vector<TriangleEdge>& edges, int motion)
+  {
+    if (edges.empty() && !contains_triangle(c.mesh, selected(c)))
+      fail_input(
+          "{}: it selects no boundary edge, so there is no slope to keep; use 'hinged' or widen its "
+          "'where' to both ends of an edge",
+          c.name());
+    hold(c, {true, true, true}, motion);
+    for (const TriangleEdge side : edges)
+      mirrors_[{side.triangle, side.edge}] = {side, in_plane_normal(c.mesh, side), motion};
+  }
+
+  void mirror(const Context& c, const std::vector<TriangleEdge>& edges)
+  {
+    const Vec3 normal = symmetry_normal(c, edges);
+    require_one_plane(c, normal);
+    const std::array<bool, 3> along{std::abs(normal.x()) == 1, std::abs(normal.y()) == 1, std::abs(normal.z()) == 1};
+    hold(c, along, -1);
+    if (!along[0] && !along[1] && !along[2])
+      for (const int v : c.support.vertices)
+        holds_[v].normals.push_back(normal);
+    for (const TriangleEdge side : edges)
+      mirrors_.try_emplace({side.triangle, side.edge}, MirrorEdge{side, normal});
+  }
+
+  void hold(const Context& c, std::array<bool, 3> components, int motion)
+  {
+    for (const int v : c.support.vertices)
+      for (int d = 0; d < 3; ++d) {
+        if (!components[d])
+          continue;
+        VertexHold& here = holds_[v];
+        here.component[d] = true;
+        if (motion < 0)
+          continue;
+        if (here.motion[d] >= 0)
+          fail_input("{}: vertex {} already moves along {} with another support", c.name(), v, "xyz"[d]);
+        here.motion[d] = motion;
+      }
+  }
+
+  void suspend(const Context& c, const std::vector<TriangleEdge>& edges)
+  {
+    const Support& s = c.support;
+    if (!((s.stiffness.array() >= 0).all() && s.turning_stiffness >= 0 && s.stiffness.allFinite()) ||
+        !(s.stiffness.norm() + s.turning_stiffness > 0))
+      fail_input("{}: stiffness = [{}, {}, {}] and turning_stiffness = {} must be at least 0, and one of them greater",
+                 c.name(), s.stiffness.x(), s.stiffness.y(), s.stiffness.z(), s.turning_stiffness);
+    if (s.turning_stiffness > 0 && edges.empty())
+      fail_input("{}: it selects no boundary edge that could turn; widen its 'where' to both ends of one", c.name());
+    const std::vector<double> share = shares(c.mesh, c.topology, s.vertices);
+    if (s.stiffness.norm() > 0)
+      for (std::size_t i = 0; i < share.size(); ++i)
+        all_.springs.on_vertices.push_back({s.vertices[i], share[i] * s.stiffness});
+    if (s.turning_stiffness > 0)
+      for (const TriangleEdge side : edges) {
+        const EdgeTurn turn(c.mesh, side);
+        all_.springs.on_edges.push_back({turn, turn.length() * s.turning_stiffness});
+      }
+  }
+
+  /// Flags where all that holds a vertex is along axes, a projector where it isn't.
+  void finish(int v, const VertexHold& hold, const TriangleMesh& mesh, std::string_view shell)
+  {
+    std::array<bool, 3> flags = hold.component;
+    if (!hold.normals.empty()) {
+      const auto directions = held_directions(hold);
+      if (directions.cols() == 3)
+        flags = {true, true, true};
+      else {
+        flags = {false, false, false};
+        all_.held.oblique.push_back({v, Mat3::Identity() - directions * directions.transpose()});
+      }
+      const Vec3 at = mesh.vertices[v];
+      for (int d = 0; d < 3; ++d)
+        if (flags[d] != hold.component[d] && *std::max_element(hold.motion.begin(), hold.motion.end()) >= 0)
+          fail_input(
+              "shell '{}': vertex {} at ({:.6g}, {:.6g}, {:.6g}) moves with a support in some components only and is "
+              "in an oblique plane of symmetry; prescribe all three",
+              shell, v, at.x(), at.y(), at.z());
+    }
+    for (int d = 0; d < 3; ++d)
+      all_.held.flags.push_back(flags[d] ? 1 : 0);
+    for (int m = 0; m < static_cast<int>(all_.held.motions.size()); ++m) {
+      const std::array<bool, 3> with{hold.motion[0] == m, hold.motion[1] == m, hold.motion[2] == m};
+      if (with[0] || with[1] || with[2])
+        all_.held.moved.push_back({v, with, m});
+    }
+  }
+
+  std::vector<VertexHold> holds_;
+  std::map<std::pair<int, int>, MirrorEdge> mirrors_;
+  Constraints all_;
 };
 
 }  // namespace
@@ -164,7 +305,7 @@ Constraints constraints(const TriangleMesh& mesh, const Topology& topology, std:
     for (std::size_t s = 0; s < supports.size(); ++s)
       if ((supports[s].kind == SupportKind::Clamped) == clamps)
         builder.apply({mesh, topology, supports[s], shell, static_cast<int>(s) + 1});
-  return builder.result();
+  return builder.result(mesh, shell);
 }
 
 }  // namespace luff::shell

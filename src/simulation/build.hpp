@@ -9,6 +9,7 @@
 
 #include "config/case.hpp"
 #include "coupling/acceleration.hpp"
+#include "shell/path_following.hpp"
 #include "simulation/simulation.hpp"
 
 namespace luff::simulation {
@@ -16,15 +17,16 @@ namespace luff::simulation {
 /// Everything that can be wrong with a case's meshes, supports, grid and boundary is found here, before anything is
 /// written.  All throw InputError.
 
-[[nodiscard]] surface::TriangleMesh build_mesh(const config::MeshOptions& mesh,
-                                               const config::PlacementOptions& placement, const std::string& owner);
 /// Shells as pieces of one, and what loads them.
 struct LoadedShell {
   std::unique_ptr<shell::Shell> shell;
   std::vector<shell::Load> loads;
+  std::vector<surface::Marks> marks;  ///< of each shell's mesh
 };
 /// At least one shell.
 [[nodiscard]] LoadedShell build_shell(const std::vector<config::ShellOptions>& options);
+[[nodiscard]] shell::ControlledDisplacement build_control(const config::ControlOptions& options,
+                                                          const shell::Shell& shell);
 [[nodiscard]] std::unique_ptr<Structure> build_structure(const config::Case& options);
 
 [[nodiscard]] std::array<std::vector<double>, 3> build_coordinates(const config::GridOptions& options);

@@ -4,11 +4,8 @@
 
 #include <numbers>
 
-#include <Eigen/Geometry>
-
 #include "shell/fibres.hpp"
 #include "simulation/refusal.hpp"
-#include "surface/triangle_vectors.hpp"
 
 namespace luff::simulation {
 
@@ -54,31 +51,15 @@ shell::HolzapfelGasserOgden holzapfel_gasser_ogden(const config::MaterialOptions
           .largest_exponent = m.largest_exponent};
 }
 
-/// The directions that the mesh file keeps, turned as the mesh is.
-std::vector<Vec3> field_directions(const std::string& field, const config::ShellOptions& options,
-                                   const std::string& owner)
-{
-  if (!options.mesh.file)
-    fail_input("{}: material.fibre.field = \"{}\" needs a mesh file that holds it; this mesh is made by its shape",
-               owner, field);
-  std::vector<Vec3> directions = surface::read_triangle_vectors(*options.mesh.file, field);
-  if (const auto& rotate = options.placement.rotate) {
-    const Eigen::AngleAxisd turn(rotate->angle * radians, rotate->axis.normalized());
-    for (Vec3& direction : directions)
-      direction = turn * direction;
-  }
-  return directions;
-}
-
 std::vector<Vec3> directions(const config::FibreOptions& fibre, const config::ShellOptions& options,
-                             const surface::TriangleMesh& mesh, const std::string& owner)
+                             const surface::MarkedMesh& marked, const std::string& owner)
 {
   if (fibre.direction)
-    return shell::uniform_directions(mesh, *fibre.direction);
+    return shell::uniform_directions(marked.mesh, *fibre.direction);
   if (fibre.circumference)
-    return shell::circumferential_directions(mesh, fibre.circumference->axis, fibre.circumference->through,
+    return shell::circumferential_directions(marked.mesh, fibre.circumference->axis, fibre.circumference->through,
                                              options.name);
-  return field_directions(fibre.field.value(), options, owner);
+  return surface::direction_field(marked.marks, fibre.field.value(), owner + ", material.fibre.field");
 }
 
 }  // namespace
@@ -102,14 +83,14 @@ shell::Material build_material(const config::MaterialOptions& m)
   return shell::SaintVenantKirchhoff{.young = m.young, .poisson = m.poisson};
 }
 
-std::vector<Vec3> build_fibres(const config::ShellOptions& options, const surface::TriangleMesh& mesh)
+std::vector<Vec3> build_fibres(const config::ShellOptions& options, const surface::MarkedMesh& marked)
 {
   const auto& fibre = options.material.fibre;
   if (!fibre)
     return {};
   return refusing_at(fibre->mark, [&] {
-    std::vector<Vec3> found = directions(*fibre, options, mesh, fmt::format("shell '{}'", options.name));
-    (void)shell::fibres_in_triangles(mesh, found, options.name);  // refused here, where the file is known
+    std::vector<Vec3> found = directions(*fibre, options, marked, fmt::format("shell '{}'", options.name));
+    (void)shell::fibres_in_triangles(marked.mesh, found, options.name);  // refused here, where the file is known
     return found;
   });
 }

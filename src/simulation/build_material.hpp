@@ -6,7 +6,7 @@
 
 #include "config/options.hpp"
 #include "shell/material/material.hpp"
-#include "surface/mesh.hpp"
+#include "surface/marked_mesh.hpp"
 
 namespace luff::simulation {
 
@@ -14,6 +14,6 @@ namespace luff::simulation {
 
 /// A direction at each triangle of the placed mesh; empty if the case gives none.
 /// \throws InputError where one is normal to its triangle, or the mesh file has no such field.
-[[nodiscard]] std::vector<Vec3> build_fibres(const config::ShellOptions& options, const surface::TriangleMesh& mesh);
+[[nodiscard]] std::vector<Vec3> build_fibres(const config::ShellOptions& options, const surface::MarkedMesh& marked);
 
 }  // namespace luff::simulation

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/build_mesh.hpp"
 
+#include "simulation/refusal.hpp"
 #include "surface/generators.hpp"
 #include "surface/readers.hpp"
+#include "surface/validation.hpp"
 
 namespace luff::simulation {
 
@@ -33,66 +35,62 @@ surface::Sector sector_of(const auto& angles)
   return {angles.from, angles.to};
 }
 
-surface::TriangleMesh rectangle(const config::MeshOptions& mesh)
+surface::Rectangle rectangle(const config::MeshOptions& mesh)
 {
-  return surface::rectangle({.origin = mesh.origin,
-                             .a = mesh.a,
-                             .b = mesh.b,
-                             .divisions = mesh.divisions,
-                             .pattern = pattern_of(mesh.pattern),
-                             .seed = static_cast<unsigned>(mesh.seed)});
+  return {.origin = mesh.origin,
+          .a = mesh.a,
+          .b = mesh.b,
+          .divisions = mesh.divisions,
+          .pattern = pattern_of(mesh.pattern),
+          .seed = static_cast<unsigned>(mesh.seed)};
 }
 
-surface::TriangleMesh disk(const config::MeshOptions& mesh)
+surface::Disk disk(const config::MeshOptions& mesh)
 {
-  return surface::disk({.frame = frame_of(mesh),
-                        .radius = mesh.radius,
-                        .angle = sector_of(mesh.angle),
-                        .rings = mesh.rings,
-                        .pattern = pattern_of(mesh.pattern),
-                        .seed = static_cast<unsigned>(mesh.seed)});
+  return {.frame = frame_of(mesh),
+          .radius = mesh.radius,
+          .angle = sector_of(mesh.angle),
+          .rings = mesh.rings,
+          .pattern = pattern_of(mesh.pattern),
+          .seed = static_cast<unsigned>(mesh.seed)};
 }
 
-surface::TriangleMesh annulus(const config::MeshOptions& mesh)
+surface::Annulus annulus(const config::MeshOptions& mesh)
 {
-  return surface::annulus({.frame = frame_of(mesh),
-                           .inner_radius = mesh.inner_radius,
-                           .radius = mesh.radius,
-                           .angle = sector_of(mesh.angle),
-                           .divisions = mesh.divisions,
-                           .pattern = pattern_of(mesh.pattern),
-                           .seed = static_cast<unsigned>(mesh.seed)});
+  return {.frame = frame_of(mesh),
+          .inner_radius = mesh.inner_radius,
+          .radius = mesh.radius,
+          .angle = sector_of(mesh.angle),
+          .divisions = mesh.divisions,
+          .pattern = pattern_of(mesh.pattern),
+          .seed = static_cast<unsigned>(mesh.seed)};
 }
 
-surface::TriangleMesh cylinder(const config::MeshOptions& mesh)
+surface::Cylinder cylinder(const config::MeshOptions& mesh)
 {
-  return surface::cylinder({.frame = frame_of(mesh),
-                            .radius = mesh.radius,
-                            .length = mesh.length,
-                            .angle = sector_of(mesh.angle),
-                            .divisions = mesh.divisions,
-                            .pattern = pattern_of(mesh.pattern),
-                            .seed = static_cast<unsigned>(mesh.seed)});
+  return {.frame = frame_of(mesh),
+          .radius = mesh.radius,
+          .length = mesh.length,
+          .angle = sector_of(mesh.angle),
+          .divisions = mesh.divisions,
+          .pattern = pattern_of(mesh.pattern),
+          .seed = static_cast<unsigned>(mesh.seed)};
 }
 
-surface::TriangleMesh sphere_cap(const config::MeshOptions& mesh)
+surface::SphereCap sphere_cap(const config::MeshOptions& mesh)
 {
-  return surface::sphere_cap({.frame = frame_of(mesh),
-                              .radius = mesh.radius,
-                              .polar = sector_of(mesh.polar),
-                              .angle = sector_of(mesh.angle),
-                              .rings = mesh.rings,
-                              .divisions = mesh.divisions,
-                              .pattern = pattern_of(mesh.pattern),
-                              .seed = static_cast<unsigned>(mesh.seed)});
+  return {.frame = frame_of(mesh),
+          .radius = mesh.radius,
+          .polar = sector_of(mesh.polar),
+          .angle = sector_of(mesh.angle),
+          .rings = mesh.rings,
+          .divisions = mesh.divisions,
+          .pattern = pattern_of(mesh.pattern),
+          .seed = static_cast<unsigned>(mesh.seed)};
 }
 
-}  // namespace
-
-surface::TriangleMesh build_unplaced(const config::MeshOptions& mesh)
+surface::Shape shape_of(const config::MeshOptions& mesh)
 {
-  if (mesh.file)
-    return surface::read_mesh(*mesh.file);
   switch (mesh.shape.value()) {
     case config::MeshShape::Rectangle:
       break;
@@ -106,6 +104,28 @@ surface::TriangleMesh build_unplaced(const config::MeshOptions& mesh)
       return sphere_cap(mesh);
   }
   return rectangle(mesh);
+}
+
+surface::MarkedMesh placed_mesh(const config::MeshOptions& mesh, const config::PlacementOptions& placement,
+                                const std::string& owner)
+{
+  surface::MarkedMesh result =
+      mesh.file ? surface::read_mesh(*mesh.file, mesh.repair ? surface::Repair::Yes : surface::Repair::No)
+                : surface::make(shape_of(mesh));
+  surface::scale(result.mesh, Vec3::Constant(placement.scale));
+  if (placement.rotate)
+    surface::rotate(result, placement.rotate->axis, placement.rotate->angle, placement.rotate->about);
+  surface::translate(result.mesh, placement.translate);
+  surface::validate(result.mesh, owner);
+  return result;
+}
+
+}  // namespace
+
+surface::MarkedMesh build_mesh(const config::MeshOptions& mesh, const config::PlacementOptions& placement,
+                               const std::string& owner)
+{
+  return refusing_at(mesh.mark, [&] { return placed_mesh(mesh, placement, owner); });
 }
 
 }  // namespace luff::simulation

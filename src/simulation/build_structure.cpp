@@ -8,25 +8,11 @@
 #include "simulation/build_mesh.hpp"
 #include "simulation/build_material.hpp"
 #include "simulation/refusal.hpp"
-#include "surface/generators.hpp"
 #include "surface/selection.hpp"
-#include "surface/validation.hpp"
 
 namespace luff::simulation {
 
 namespace {
-
-surface::TriangleMesh placed_mesh(const config::MeshOptions& mesh, const config::PlacementOptions& placement,
-                                  const std::string& owner)
-{
-  surface::TriangleMesh result = build_unplaced(mesh);
-  surface::scale(result, Vec3::Constant(placement.scale));
-  if (placement.rotate)
-    surface::rotate(result, placement.rotate->axis, placement.rotate->angle, placement.rotate->about);
-  surface::translate(result, placement.translate);
-  surface::validate(result, owner);
-  return result;
-}
 
 surface::Where where_of(const config::WhereOptions& where)
 {
@@ -36,6 +22,10 @@ surface::Where where_of(const config::WhereOptions& where)
     return surface::BoxWhere{(*where.box)[0], (*where.box)[1]};
   if (where.plane)
     return surface::PlaneWhere{where.plane->point, where.plane->normal};
+  if (where.set)
+    return surface::SetWhere{*where.set};
+  if (where.all)
+    return surface::AllWhere{};
   return surface::PointWhere{where.point.value()};
 }
 
@@ -59,17 +49,33 @@ shell::Properties properties_of(const config::ShellOptions& options)
           .material = build_material(options.material),
           .thickness_points = options.material.thickness_points.value_or(0),
           .bending = bending_of(options.bending),
+          .lumped_mass = options.mass == config::MassMatrix::Lumped,
           .damping_mass = options.damping.mass,
           .damping_stiffness = options.damping.stiffness,
           .gravity = options.gravity};
 }
 
-shell::Support support_of(const config::SupportOptions& options, const surface::TriangleMesh& mesh,
+shell::Motion motion_of(const config::VectorExpression& translation,
+                        const std::optional<config::RotationOptions>& rotation)
+{
+  shell::Motion motion;
+  motion.translation = [translation](const Vec3& X, double t) { return translation.evaluate(X, t); };
+  if (rotation)
+    motion.rotation = {rotation->axis, rotation->about, [angle = rotation->angle](double t) {
+                         return angle.evaluate(Vec3::Zero(), t) * std::numbers::pi / 180.0;
+                       }};
+  return motion;
+}
+
+shell::Support support_of(const config::SupportOptions& options, const surface::MarkedMesh& marked,
                           const std::string& what)
 {
   shell::Support support;
-  support.vertices =
-      refusing_at(options.mark, [&] { return surface::select_vertices(mesh, where_of(options.where), what); });
+  support.vertices = refusing_at(options.mark, [&] {
+    return surface::select_vertices(marked.mesh, where_of(options.where), what, marked.marks.sets);
+  });
+  if (options.motion)
+    support.motion = motion_of(options.motion->translation, options.motion->rotation);
   if (options.fixed) {
     support.kind = shell::SupportKind::Fixed;
     support.components = {false, false, false};
@@ -86,14 +92,22 @@ shell::Support support_of(const config::SupportOptions& options, const surface::
       break;
     case config::SupportType::Symmetry:
       support.kind = shell::SupportKind::Symmetry;
+      if (options.where.plane)
+        support.normal = options.where.plane->normal;
+      break;
+    case config::SupportType::Elastic:
+      support.kind = shell::SupportKind::Elastic;
+      support.stiffness = options.stiffness;
+      support.turning_stiffness = options.turning_stiffness;
       break;
   }
   return support;
 }
 
-shell::Load load_of(const config::LoadOptions& options, const surface::TriangleMesh& mesh, const std::string& what)
+shell::Load load_of(const config::LoadOptions& options, const surface::MarkedMesh& marked, const std::string& what)
 {
-  const std::vector<int> vertices = surface::select_vertices(mesh, where_of(options.where), what);
+  const surface::Where where = where_of(options.where);
+  const std::vector<int> vertices = surface::select_vertices(marked.mesh, where, what, marked.marks.sets);
   if (options.force) {
     // The file gives the total force; a PointForce shares what its function returns among the vertices.
     return shell::PointForce{vertices, [f = *options.force](const Vec3& x, double t) { return f.evaluate(x, t); }};
@@ -103,67 +117,40 @@ shell::Load load_of(const config::LoadOptions& options, const surface::TriangleM
   if (options.edge_moment)
     return shell::EdgeMoment{vertices,
                              [m = *options.edge_moment](const Vec3& x, double t) { return m.evaluate(x, t); }};
-  const std::vector<int> triangles = shell::triangles_of(mesh, vertices);
-  if (triangles.empty())
-    fail_input("{}: no triangle lies wholly in the selection; select more, or give a force", what);
+  const std::vector<int> triangles = surface::select_triangles(marked.mesh, where, what, marked.marks.sets);
   if (options.pressure)
     return shell::Pressure{triangles, [p = *options.pressure](const Vec3& x, double t) { return p.evaluate(x, t); }};
   return shell::Traction{triangles,
                          [s = options.traction.value()](const Vec3& x, double t) { return s.evaluate(x, t); }};
 }
 
-/// x = R(t) (x_0 - about) + about + translation(t)
-Vec3 moved(const config::MotionOptions& motion, const Vec3& x_0, double t)
-{
-  Vec3 x = x_0;
-  if (motion.rotation) {
-    const double angle = motion.rotation->angle.evaluate(x_0, t) * std::numbers::pi / 180.0;
-    x = Eigen::AngleAxisd(angle, motion.rotation->axis.normalized()) * (x_0 - motion.rotation->about) +
-        motion.rotation->about;
-  }
-  return x + motion.translation.evaluate(x_0, t);
-}
-
 RigidSheet build_rigid(const config::BodyOptions& options)
 {
-  RigidSheet sheet{.name = options.name,
-                   .mesh = build_mesh(options.mesh, options.placement, fmt::format("body '{}'", options.name)),
-                   .position = {},
-                   .moves = options.motion.type == config::MotionType::Prescribed};
-  sheet.position = [motion = options.motion](const Vec3& x_0, double t) { return moved(motion, x_0, t); };
-  return sheet;
+  surface::MarkedMesh marked = build_mesh(options.mesh, options.placement, fmt::format("body '{}'", options.name));
+  return {.name = options.name,
+          .mesh = std::move(marked.mesh),
+          .motion = motion_of(options.motion.translation, options.motion.rotation),
+          .moves = options.motion.type == config::MotionType::Prescribed,
+          .marks = std::move(marked.marks)};
 }
 
-}  // namespace
-
-surface::TriangleMesh build_mesh(const config::MeshOptions& mesh, const config::PlacementOptions& placement,
-                                 const std::string& owner)
-{
-  return refusing_at(mesh.mark, [&] { return placed_mesh(mesh, placement, owner); });
-}
-
-namespace {
-
-shell::Piece build_piece(const config::ShellOptions& options)
+shell::Piece build_piece(const config::ShellOptions& options, const surface::MarkedMesh& marked)
 {
   const std::string owner = fmt::format("shell '{}'", options.name);
-  shell::Piece piece{.reference = build_mesh(options.mesh, options.placement, owner),
-                     .properties = properties_of(options),
-                     .name = options.name};
+  shell::Piece piece{.reference = marked.mesh, .properties = properties_of(options), .name = options.name};
   for (std::size_t n = 0; n < options.supports.size(); ++n)
-    piece.supports.push_back(
-        support_of(options.supports[n], piece.reference, fmt::format("{}, support {}", owner, n + 1)));
-  piece.fibres = build_fibres(options, piece.reference);
+    piece.supports.push_back(support_of(options.supports[n], marked, fmt::format("{}, support {}", owner, n + 1)));
+  piece.fibres = build_fibres(options, marked);
   return piece;
 }
 
 /// The loads of one shell, in its own numbering.
-std::vector<shell::Load> build_loads(const config::ShellOptions& options, const surface::TriangleMesh& mesh)
+std::vector<shell::Load> build_loads(const config::ShellOptions& options, const surface::MarkedMesh& marked)
 {
   std::vector<shell::Load> loads;
   for (std::size_t n = 0; n < options.loads.size(); ++n)
     loads.push_back(refusing_at(options.loads[n].mark, [&] {
-      return load_of(options.loads[n], mesh, fmt::format("shell '{}', load {}", options.name, n + 1));
+      return load_of(options.loads[n], marked, fmt::format("shell '{}', load {}", options.name, n + 1));
     }));
   return loads;
 }
@@ -176,14 +163,17 @@ LoadedShell build_shell(const std::vector<config::ShellOptions>& options)
   std::vector<shell::Piece> pieces;
   int first_vertex = 0, first_triangle = 0;
   for (const config::ShellOptions& shell_options : options) {
-    shell::Piece piece = build_piece(shell_options);
+    surface::MarkedMesh marked =
+        build_mesh(shell_options.mesh, shell_options.placement, fmt::format("shell '{}'", shell_options.name));
+    shell::Piece piece = build_piece(shell_options, marked);
     // What is wrong with a piece is told with its own place in the file.
     refusing_at(shell_options.mark, [&] { (void)shell::Shell({piece}); });
-    for (const shell::Load& load : build_loads(shell_options, piece.reference))
+    for (const shell::Load& load : build_loads(shell_options, marked))
       result.loads.push_back(shell::renumbered(load, first_vertex, first_triangle));
     first_vertex += piece.reference.n_vertices();
     first_triangle += piece.reference.n_triangles();
     pieces.push_back(std::move(piece));
+    result.marks.push_back(std::move(marked.marks));
   }
   result.shell = std::make_unique<shell::Shell>(std::move(pieces));
   return result;
@@ -191,29 +181,78 @@ LoadedShell build_shell(const std::vector<config::ShellOptions>& options)
 
 namespace {
 
-Shells build_shells(const config::Case& options)
+shell::TimeScheme scheme_of(const config::StructureOptions& structure)
+{
+  switch (structure.scheme) {
+    case config::StructureScheme::GeneralisedAlpha:
+      return shell::TimeScheme::generalised_alpha(structure.rho_inf);
+    case config::StructureScheme::Midpoint:
+      return shell::TimeScheme::midpoint();
+    case config::StructureScheme::Newmark:
+      break;
+  }
+  return shell::TimeScheme::newmark(structure.numerical_damping);
+}
+
+/// The bodies as contact sees them.
+shell::ContactOptions contact_of(const config::ContactOptions& options, const std::vector<RigidSheet>& rigid)
+{
+  shell::ContactOptions contact;
+  contact.law = {.distance = options.distance, .stiffness = options.stiffness, .self = options.self};
+  for (const RigidSheet& sheet : rigid)
+    contact.bodies.push_back({sheet.name, sheet.mesh, /*deforms=*/false});
+  contact.body_positions = [rigid](double t) {
+    std::vector<Vec3> positions;
+    for (const RigidSheet& sheet : rigid)
+      for (const Vec3& x_0 : sheet.mesh.vertices)
+        positions.push_back(sheet.motion.position(x_0, t));
+    return surface::interleaved(positions);
+  };
+  return contact;
+}
+
+Shells build_shells(const config::Case& options, const std::vector<RigidSheet>& rigid)
 {
   Shells shells;
   if (options.shells.empty())
     return shells;
   LoadedShell built = build_shell(options.shells);
   shells.shell = std::move(built.shell);
+  shells.marks = std::move(built.marks);
   shell::DynamicsOptions dynamics;
+  dynamics.scheme = scheme_of(options.structure);
+  dynamics.first_step = options.time.step;
   dynamics.fold_limit = options.structure.fold_limit;
   if (options.structure.solver == config::StructureSolver::Cg)
     dynamics.linear_solver = shell::LinearSolverKind::ConjugateGradients;
-  shells.dynamics = std::make_unique<shell::Dynamics>(*shells.shell, built.loads, dynamics);
+  if (options.contact)
+    dynamics.contact = contact_of(*options.contact, rigid);
+  shells.dynamics = refusing_at(options.contact ? options.contact->mark : config::Mark{}, [&] {
+    return std::make_unique<shell::Dynamics>(*shells.shell, built.loads, dynamics);
+  });
   return shells;
 }
 
 }  // namespace
+
+shell::ControlledDisplacement build_control(const config::ControlOptions& options, const shell::Shell& shell)
+{
+  return refusing_at(options.mark, [&] {
+    const shell::ControlledDisplacement control{
+        surface::select_vertices(shell.reference(), where_of(options.where), "structure.control"),
+        static_cast<int>(options.component), options.displacement};
+    shell::check_controllable(shell, control);
+    return control;
+  });
+}
 
 std::unique_ptr<Structure> build_structure(const config::Case& options)
 {
   std::vector<RigidSheet> rigid;
   for (const config::BodyOptions& body : options.bodies)
     rigid.push_back(build_rigid(body));
-  return std::make_unique<Structure>(build_shells(options), std::move(rigid));
+  Shells shells = build_shells(options, rigid);
+  return std::make_unique<Structure>(std::move(shells), std::move(rigid));
 }
 
 }  // namespace luff::simulation

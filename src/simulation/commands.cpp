@@ -14,6 +14,7 @@
 #include "simulation/build.hpp"
 #include "simulation/check_flow.hpp"
 #include "simulation/groups.hpp"
+#include "simulation/mark_fields.hpp"
 #include "simulation/recorder.hpp"
 #include "simulation/static_run.hpp"
 
@@ -83,7 +84,7 @@ void set_threads(MPI_Comm comm, const config::Case& options, const Threads& thre
 
 bool is_static(const config::Case& options)
 {
-  return options.structure.analysis == config::Analysis::Static;
+  return options.structure.analysis != config::Analysis::Dynamic;
 }
 
 void picture(const output::RunFolder& folder, spdlog::logger& log, const config::Case& options, const RunOptions& run)
@@ -131,6 +132,7 @@ output::SurfaceSnapshot surface_snapshot(const Structure& structure, const Sheet
   output::SurfaceSnapshot snapshot;
   snapshot.points.assign(first, first + sheet.vertices);
   snapshot.triangles = sheet.reference.triangles;
+  add_marks(sheet, snapshot);
   return snapshot;
 }
 

@@ -5,10 +5,12 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "shell/section.hpp"
 #include "simulation/build.hpp"
 #include "simulation/build_material.hpp"
+#include "surface/repair.hpp"
 
 namespace luff::simulation {
 
@@ -135,6 +137,16 @@ void describe_shell(const config::Case& options, const config::ShellOptions& she
                     "10 or more); set coupling.scheme = \"strong\""));
 }
 
+void describe_mesh(const SheetRange& sheet, std::vector<std::string>& lines)
+{
+  const std::string owner = fmt::format("{} '{}'", sheet.deforms ? "shell" : "body", sheet.name);
+  lines.push_back(fmt::format("{}: {} vertices, {} triangles", owner, sheet.vertices, sheet.triangles));
+  if (sheet.marks.repairs.any())
+    lines.push_back(fmt::format("{}: mesh repaired: {}", owner, surface::text(sheet.marks.repairs)));
+  if (const auto names = surface::names(sheet.marks.sets); !names.empty())
+    lines.push_back(fmt::format("{}: sets {}", owner, fmt::join(names, ", ")));
+}
+
 }  // namespace
 
 std::vector<std::string> describe_groups(const config::Case& options, const Structure& structure)
@@ -145,8 +157,7 @@ std::vector<std::string> describe_groups(const config::Case& options, const Stru
   for (const config::ShellOptions& shell : options.shells)
     describe_shell(options, shell, sheet_length(structure), lines);
   for (const SheetRange& sheet : structure.sheets())
-    lines.push_back(fmt::format("{} '{}': {} vertices, {} triangles", sheet.deforms ? "shell" : "body", sheet.name,
-                                sheet.vertices, sheet.triangles));
+    describe_mesh(sheet, lines);
   return lines;
 }
 

@@ -39,7 +39,8 @@ std::vector<output::Column> step_columns()
                                       {"kinetic", "energy"},
                                       {"elastic", "energy"},
                                       {"damping_work", "energy"},
-                                      {"external_work", "energy"}};
+                                      {"external_work", "energy"},
+                                      {"support_work", "energy"}};
   for (const char* phase : phase_names)
     columns.push_back({std::string("seconds_") + phase, "s"});
   return columns;
@@ -172,7 +173,8 @@ void Recorder::write_steps(const StepRecord& record)
                           energy.kinetic,
                           energy.elastic,
                           energy.damping_work,
-                          energy.external_work};
+                          energy.external_work,
+                          energy.support_work};
   auto* flow = simulation_.surroundings().flow();
   for (std::size_t n = 0; n < phase_names.size(); ++n) {
     const double seconds = simulation_.profile().all()[n] + (flow ? flow->profile().all()[n] : 0.0);

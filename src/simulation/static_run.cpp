@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/static_run.hpp"
 
+#include <limits>
+
 #include <nlohmann/json.hpp>
 
 #include "output/csv.hpp"
 #include "output/series.hpp"
 #include "output/summary.hpp"
-#include "shell/statics.hpp"
+#include "shell/path_following.hpp"
 #include "simulation/build.hpp"
 #include "surface/selection.hpp"
 #include "simulation/refusal.hpp"
@@ -60,24 +62,44 @@ struct Stopped {};
 class StaticRecorder {
  public:
   StaticRecorder(const output::RunFolder& folder, const config::Case& options, const shell::Shell& shell)
-      : shell_(shell), probes_(open_probes(folder, options, shell)), series_(folder, "shell-" + shell.name())
+      : shell_(shell),
+        by_load_(options.structure.analysis == config::Analysis::Static),
+        probes_(open_probes(folder, options, shell)),
+        steps_(folder, "steps-" + shell.name() + ".csv",
+               {{"step", ""},
+                {"load_factor", ""},
+                {"newton_iterations", ""},
+                {"damped_iterations", ""},
+                {"negative_pivots", ""},
+                {"largest_fold", "degrees"},
+                {"sharp_folds", ""}}),
+        series_(folder, "shell-" + shell.name())
   {
     series_.write(0.0, snapshot(shell, shell.reference_positions()));
   }
 
   void record(const shell::StaticStep& step, nlohmann::ordered_json& summary)
   {
-    series_.write(step.load_factor, snapshot(shell_, step.positions));
+    // On a path the load factor may return to a value; its instants are numbered by steps.
+    series_.write(by_load_ ? step.load_factor : step.step, snapshot(shell_, step.positions));
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    const auto pivots = step.report.negative_pivots;
+    steps_.row(std::array<double, 7>{double(step.step), step.load_factor, double(step.iterations),
+                                     double(step.damped_iterations), pivots ? double(*pivots) : unknown,
+                                     step.folds.largest, double(step.folds.n_sharp)});
     for (StaticProbe& probe : probes_) {
       const Vec3 u = (step.positions - shell_.reference_positions()).segment<3>(3 * probe.vertex);
-      probe.csv.row(std::array<double, 5>{step.load_factor, u[0], u[1], u[2], double(step.report.iterations)});
+      probe.csv.row(std::array<double, 5>{step.load_factor, u[0], u[1], u[2], double(step.iterations)});
       summary["probes"][probe.name] = {u[0], u[1], u[2]};
     }
+    summary["load_factor"] = step.load_factor;
   }
 
  private:
   const shell::Shell& shell_;
+  bool by_load_;
   std::vector<StaticProbe> probes_;
+  output::CsvWriter steps_;
   output::SurfaceSeries series_;
 };
 
@@ -89,7 +111,40 @@ shell::StaticOptions static_options(const config::StructureOptions& structure)
   options.fold_limit = structure.fold_limit;
   if (structure.solver == config::StructureSolver::Cg)
     options.linear_solver = shell::LinearSolverKind::ConjugateGradients;
+  if (structure.stabilisation == config::StructureStabilisation::Damping)
+    options.stabilisation = shell::Stabilisation::Damping;
   return options;
+}
+
+void analyse(const LoadedShell& loaded, const config::StructureOptions& structure, const shell::OnStaticStep& on_step)
+{
+  const shell::StaticOptions options = static_options(structure);
+  switch (structure.analysis) {
+    case config::Analysis::ArcLength:
+      shell::follow_arc_length(*loaded.shell, loaded.loads, {options, structure.max_steps}, on_step);
+      break;
+    case config::Analysis::DisplacementControl:
+      shell::control_displacement(*loaded.shell, loaded.loads, build_control(structure.control, *loaded.shell), options,
+                                  on_step);
+      break;
+    case config::Analysis::Static:
+    case config::Analysis::Dynamic:
+      shell::solve_static(*loaded.shell, loaded.loads, options, on_step);
+      break;
+  }
+}
+
+/// "load factor 0.35, 6 Newton iterations", and what else the user should know.
+std::string told(const shell::StaticStep& step)
+{
+  std::string text = fmt::format("load factor {:.4g}, {} Newton iterations", step.load_factor, step.iterations);
+  if (step.damped_iterations > 0)
+    text += fmt::format(", snapped in {} damped iterations", step.damped_iterations);
+  if (const int n = step.report.negative_pivots.value_or(0); n > 0)
+    text += fmt::format(", unstable in {} direction{}", n, n > 1 ? "s" : "");
+  if (step.folds.n_sharp > 0)
+    text += fmt::format(", {} edges folded by more than 45 degrees", step.folds.n_sharp);
+  return text;
 }
 
 /// Runs `load`, which fills the summary, and writes the summary however it ends.
@@ -119,6 +174,8 @@ std::vector<LoadedShell> build_static(const config::Case& options)
   for (const config::ShellOptions& shell_options : options.shells) {
     shells.push_back(build_shell({shell_options}));
     refusing_at(shell_options.mark, [&] { shell::check_supported(*shells.back().shell); });
+    if (options.structure.analysis == config::Analysis::DisplacementControl)
+      (void)build_control(options.structure.control, *shells.back().shell);
   }
   return shells;
 }
@@ -129,12 +186,12 @@ void run_static(const output::RunFolder& folder, const std::shared_ptr<spdlog::l
 {
   nlohmann::ordered_json summary{{"title", options.title}, {"state", "failed"}};
   summarise(folder, *log, summary, [&] {
-    for (const auto& [shell, loads] : shells) {
-      log->info("open in ParaView: {}", folder.file("shell-" + shell->name() + ".pvd").string());
-      StaticRecorder recorder(folder, options, *shell);
-      (void)shell::solve_static(*shell, loads, static_options(options.structure), [&](const shell::StaticStep& step) {
-        log->info("shell '{}': load factor {:.4g}, {} Newton iterations", shell->name(), step.load_factor,
-                  step.report.iterations);
+    for (const LoadedShell& loaded : shells) {
+      const std::string& name = loaded.shell->name();
+      log->info("open in ParaView: {}", folder.file("shell-" + name + ".pvd").string());
+      StaticRecorder recorder(folder, options, *loaded.shell);
+      analyse(loaded, options.structure, [&](const shell::StaticStep& step) {
+        log->info("shell '{}': {}", name, told(step));
         recorder.record(step, summary);
         const bool asked = folder.stop_requested() || interrupted();
         if (asked && step.load_factor < 1.0)

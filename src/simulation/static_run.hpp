@@ -17,9 +17,9 @@ namespace luff::simulation {
 /// Throws InputError where a shell's mesh, supports or loads are wrong or leave it free to move as a rigid body.
 [[nodiscard]] std::vector<LoadedShell> build_static(const config::Case& options);
 
-/// Loads every shell in structure.steps equal steps; writes probe-<name>.csv against the load factor, shell-<name>.pvd
-/// and summary.json.  Ends after the step in which a STOP file appears or `interrupted` is true.  Collective.
-/// Throws RunError where there is no equilibrium; the summary then says so.
+/// Loads every shell as structure.analysis says; writes steps-<shell>.csv, probe-<name>.csv against the load factor,
+/// shell-<name>.pvd and summary.json.  Ends after the step in which a STOP file appears or `interrupted` is true.
+/// Collective. Throws RunError where there is no equilibrium; the summary then says so.
 void run_static(const output::RunFolder& folder, const std::shared_ptr<spdlog::logger>& log,
                 const config::Case& options, const std::vector<LoadedShell>& shells,
                 const std::function<bool()>& interrupted);

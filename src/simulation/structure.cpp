@@ -29,23 +29,6 @@ surface::TriangleMesh mesh_of(const shell::Shell& shell, const shell::PieceRange
   return mesh;
 }
 
-/// Velocity and acceleration of a prescribed motion by fourth-order central differences.  A tenth of the step resolves
-/// whatever the flow resolves, and keeps round-off near 1e-13 of the velocity.
-struct PrescribedRates {
-  Vec3 velocity;
-  Vec3 acceleration;
-};
-PrescribedRates rates(const RigidSheet& sheet, const Vec3& x_0, double t, double dt)
-{
-  const double e = 0.1 * dt;
-  const auto x = [&](int n) -> Vec3 { return sheet.position(x_0, t + n * e); };
-  const Vec3 near = x(1) - x(-1);
-  const Vec3 far = x(2) - x(-2);
-  const Vec3 here = x(0);
-  return {(8.0 * near - far) / (12.0 * e),
-          (16.0 * (x(1) - 2.0 * here + x(-1)) - (x(2) - 2.0 * here + x(-2))) / (12.0 * e * e)};
-}
-
 }  // namespace
 
 Structure::Structure(Shells shells, std::vector<RigidSheet> rigid)
@@ -53,18 +36,22 @@ Structure::Structure(Shells shells, std::vector<RigidSheet> rigid)
 {
   int part = 0;
   if (shells_.shell) {
-    for (const shell::PieceRange& piece : shells_.shell->pieces())
-      add_sheet(piece.name, true, part++, mesh_of(*shells_.shell, piece));
+    shells_.marks.resize(shells_.shell->pieces().size());
+    for (const shell::PieceRange& piece : shells_.shell->pieces()) {
+      add_sheet(piece.name, true, part, mesh_of(*shells_.shell, piece), shells_.marks[part]);
+      ++part;
+    }
     length_ = shells_.shell->size();
   }
   part = 0;
   for (const RigidSheet& sheet : rigid_)
-    add_sheet(sheet.name, false, part++, sheet.mesh);
+    add_sheet(sheet.name, false, part++, sheet.mesh, sheet.marks);
   const std::vector<Vec3> none(vertices_, Vec3::Zero());
   loads_ = {none, none};
 }
 
-void Structure::add_sheet(const std::string& name, bool deforms, int part, const surface::TriangleMesh& reference)
+void Structure::add_sheet(const std::string& name, bool deforms, int part, const surface::TriangleMesh& reference,
+                          const surface::Marks& marks)
 {
   for (const auto& t : reference.triangles)
     triangles_.push_back({t[0] + vertices_, t[1] + vertices_, t[2] + vertices_});
@@ -72,6 +59,7 @@ void Structure::add_sheet(const std::string& name, bool deforms, int part, const
                    .deforms = deforms,
                    .part = part,
                    .reference = reference,
+                   .marks = marks,
                    .first_vertex = vertices_,
                    .vertices = reference.n_vertices(),
                    .first_triangle = static_cast<int>(triangles_.size()) - reference.n_triangles(),
@@ -97,9 +85,9 @@ immersed::SheetMotion Structure::motion(const Eigen::VectorXd& d, const TimeStep
   }
   for (const RigidSheet& sheet : rigid_)
     for (const Vec3& x_0 : sheet.mesh.vertices) {
-      const PrescribedRates r =
-          sheet.moves ? rates(sheet, x_0, step.t_new, step.dt) : PrescribedRates{Vec3::Zero(), Vec3::Zero()};
-      motion.position.push_back(sheet.moves ? sheet.position(x_0, step.t_new) : x_0);
+      const shell::Rates r =
+          sheet.moves ? sheet.motion.rates(x_0, step.t_new, step.dt) : shell::Rates{Vec3::Zero(), Vec3::Zero()};
+      motion.position.push_back(sheet.moves ? sheet.motion.position(x_0, step.t_new) : x_0);
       motion.velocity.push_back(r.velocity);
       motion.acceleration.push_back(r.acceleration);
     }
@@ -141,7 +129,7 @@ std::vector<Vec3> Structure::accepted_positions(double t) const
     append(positions, shells_.dynamics->accepted().x);
   for (const RigidSheet& sheet : rigid_)
     for (const Vec3& x_0 : sheet.mesh.vertices)
-      positions.push_back(sheet.moves ? sheet.position(x_0, t) : x_0);
+      positions.push_back(sheet.moves ? sheet.motion.position(x_0, t) : x_0);
   return positions;
 }
 
@@ -152,7 +140,7 @@ std::vector<Vec3> Structure::accepted_velocities(double t, double dt) const
     append(velocities, shells_.dynamics->accepted().v);
   for (const RigidSheet& sheet : rigid_)
     for (const Vec3& x_0 : sheet.mesh.vertices)
-      velocities.push_back(sheet.moves ? rates(sheet, x_0, t, dt).velocity : Vec3(Vec3::Zero()));
+      velocities.push_back(sheet.moves ? sheet.motion.rates(x_0, t, dt).velocity : Vec3(Vec3::Zero()));
   return velocities;
 }
 

@@ -15,6 +15,7 @@
 #include "immersed/cut_links.hpp"
 #include "immersed/loads.hpp"
 #include "shell/dynamics.hpp"
+#include "surface/marked_mesh.hpp"
 
 namespace luff::simulation {
 
@@ -22,14 +23,16 @@ namespace luff::simulation {
 struct Shells {
   std::unique_ptr<shell::Shell> shell;
   std::unique_ptr<shell::Dynamics> dynamics;
+  std::vector<surface::Marks> marks = {};  ///< of each piece's mesh; may be left out
 };
 
 /// A thin rigid sheet whose place is given for all times.
 struct RigidSheet {
   std::string name;
   surface::TriangleMesh mesh;  ///< at t = 0
-  std::function<Vec3(const Vec3& x_0, double t)> position;
+  shell::Motion motion;
   bool moves = false;
+  surface::Marks marks = {};
 };
 
 /// Part of the vertices and triangles of all sheets together.
@@ -38,6 +41,7 @@ struct SheetRange {
   bool deforms = false;
   int part = 0;                     ///< index among the shells or the rigid sheets
   surface::TriangleMesh reference;  ///< of a shell; at t = 0 of a rigid sheet
+  surface::Marks marks;             ///< of that mesh
   int first_vertex = 0;
   int vertices = 0;
   int first_triangle = 0;
@@ -45,7 +49,7 @@ struct SheetRange {
 };
 
 /// Shells first, then rigid sheets.  The interface vector d holds the positions of the shells' vertices; velocities
-/// follow from it through Newmark, so that both stay consistent.
+/// follow from it through the scheme of the shells, so that both stay consistent.
 class Structure {
  public:
   Structure(Shells shells, std::vector<RigidSheet> rigid);
@@ -81,7 +85,8 @@ class Structure {
   [[nodiscard]] long sharp_folds() const { return sharp_folds_; }
 
  private:
-  void add_sheet(const std::string& name, bool deforms, int part, const surface::TriangleMesh& reference);
+  void add_sheet(const std::string& name, bool deforms, int part, const surface::TriangleMesh& reference,
+                 const surface::Marks& marks);
   [[nodiscard]] Eigen::VectorXd forces_on_shells() const;
 
   Shells shells_;

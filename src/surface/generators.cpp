@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.hpp"
+#include "surface/round_shapes.hpp"
 
 namespace luff::surface {
 
@@ -22,17 +23,47 @@ void check(const Rectangle& shape)
                shape.a.x(), shape.a.y(), shape.a.z(), shape.b.x(), shape.b.y(), shape.b.z());
 }
 
-}  // namespace
-
-TriangleMesh rectangle(const Rectangle& shape)
+MarkedMesh made(const Rectangle& shape)
 {
   check(shape);
   const auto point = [&](double u, double v) -> Vec3 {
     return shape.origin + u / shape.divisions[0] * shape.a + v / shape.divisions[1] * shape.b;
   };
-  const ParametricSurface surface = plane(point, shape.origin, shape.a.cross(shape.b));
-  return triangulate(grid_layout(shape.divisions, Around::Open), surface,
-                     {shape.pattern, shape.displacement, shape.seed}, "rectangle");
+  return triangulate(grid_layout(shape.divisions, Around::Open), plane(point, shape.origin, shape.a.cross(shape.b)),
+                     {shape.pattern, shape.displacement, shape.seed}, "rectangle",
+                     {{"u_min", "a_min"}, {"u_max", "a_max"}, {"v_min", "b_min"}, {"v_max", "b_max"}});
+}
+
+}  // namespace
+
+MarkedMesh make(const Shape& shape)
+{
+  return std::visit([](const auto& s) { return made(s); }, shape);
+}
+
+TriangleMesh rectangle(const Rectangle& shape)
+{
+  return make(shape).mesh;
+}
+
+TriangleMesh disk(const Disk& shape)
+{
+  return make(shape).mesh;
+}
+
+TriangleMesh annulus(const Annulus& shape)
+{
+  return make(shape).mesh;
+}
+
+TriangleMesh cylinder(const Cylinder& shape)
+{
+  return make(shape).mesh;
+}
+
+TriangleMesh sphere_cap(const SphereCap& shape)
+{
+  return make(shape).mesh;
 }
 
 }  // namespace luff::surface

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <variant>
 
 #include "surface/mesh.hpp"
 #include "surface/pattern.hpp"
@@ -87,12 +88,17 @@ struct SphereCap {
   unsigned seed = 1;
 };
 
-/// Vertex (i, j) of the sheet has number i (divisions[1] + 1) + j.
-/// \throws InputError for divisions below 1, sides that are zero, not finite or parallel, a displacement out of range.
-TriangleMesh rectangle(const Rectangle& shape);
+using Shape = std::variant<Rectangle, Disk, Annulus, Cylinder, SphereCap>;
 
-/// Vertices lie on the exact surface, those of the boundary on its edges. \throws InputError for lengths that are not
-/// positive, angles or numbers of divisions out of range, an axis without direction, a start along the axis.
+/// Vertices lie on the exact surface, those of the boundary on its edges; vertex (i, j) of rows and columns has number
+/// i (divisions[1] + 1) + j. Edges that are there are named after what they are the ends of: a_min, a_max, b_min,
+/// b_max; angle_min, angle_max; length_min, length_max; radius_min, radius_max; polar_min, polar_max (a centre or pole
+/// is a vertex); boundary is all of them. \throws InputError for lengths that are not positive, sides that are
+/// parallel, angles, displacements or numbers of divisions out of range, an axis without direction, a start along the
+/// axis.
+MarkedMesh make(const Shape& shape);
+
+TriangleMesh rectangle(const Rectangle& shape);
 TriangleMesh disk(const Disk& shape);
 TriangleMesh annulus(const Annulus& shape);
 TriangleMesh cylinder(const Cylinder& shape);
@@ -103,6 +109,8 @@ bool has_pole(const SphereCap& shape);
 
 /// Turn by `degrees` about the line through `about` along `axis` (right-hand rule).
 void rotate(TriangleMesh& mesh, const Vec3& axis, double degrees, const Vec3& about = Vec3::Zero());
+/// The same; fields of vectors turn, too.
+void rotate(MarkedMesh& marked, const Vec3& axis, double degrees, const Vec3& about = Vec3::Zero());
 void translate(TriangleMesh& mesh, const Vec3& shift);
 /// Stretch about the origin by a factor per axis, all positive.
 void scale(TriangleMesh& mesh, const Vec3& factors);

@@ -19,6 +19,25 @@ void check_divisions(std::string_view shape, const std::array<int, 2>& divisions
                most);
 }
 
+namespace {
+
+std::map<std::string, Side> grid_sides(int columns, int rows, bool closed)
+{
+  std::map<std::string, Side> sides;
+  for (int i = 0; i < columns; ++i) {
+    sides["v_min"].nodes.push_back(i * rows);
+    sides["v_max"].nodes.push_back(i * rows + rows - 1);
+  }
+  sides["v_min"].closed = sides["v_max"].closed = closed;
+  for (int j = 0; j < rows && !closed; ++j) {
+    sides["u_min"].nodes.push_back(j);
+    sides["u_max"].nodes.push_back((columns - 1) * rows + j);
+  }
+  return sides;
+}
+
+}  // namespace
+
 Layout grid_layout(const std::array<int, 2>& divisions, Around around)
 {
   const auto [nu, nv] = divisions;
@@ -36,6 +55,7 @@ Layout grid_layout(const std::array<int, 2>& divisions, Around around)
       const int q = (i + 1) % columns * (nv + 1) + j;
       layout.quadrilaterals.push_back({p, q, q + 1, p + 1});
     }
+  layout.sides = grid_sides(columns, nv + 1, closed);
   return layout;
 }
 
@@ -52,6 +72,7 @@ class FanBuilder {
     for (int k = 0; k < fan_.rings; ++k)
       for (int sector = 0; sector < fan_.sectors; ++sector)
         stitch(k, sector);
+    name_sides();
     return std::move(layout_);
   }
 
@@ -92,6 +113,19 @@ class FanBuilder {
         layout_.triangles.push_back({p, q, node(k + 1, sector, ++out)});
       else
         layout_.triangles.push_back({p, q, node(k, sector, ++in)});
+    }
+  }
+
+  void name_sides()
+  {
+    const int end = static_cast<int>(layout_.nodes.size());
+    layout_.sides["u_min"].nodes = {0};
+    for (int node = first_.back(); node < end; ++node)
+      layout_.sides["u_max"].nodes.push_back(node);
+    layout_.sides["u_max"].closed = closed();
+    for (int k = 0; k <= fan_.rings && !closed(); ++k) {
+      layout_.sides["v_min"].nodes.push_back(first_[k]);
+      layout_.sides["v_max"].nodes.push_back(k < fan_.rings ? first_[k + 1] - 1 : end - 1);
     }
   }
 

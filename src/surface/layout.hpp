@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,11 +18,18 @@ struct Node {
   bool inner = false;  ///< not on the boundary
 };
 
+/// Nodes along a side, in order; a side that shrinks to a pole has one.
+struct Side {
+  std::vector<int> nodes;
+  bool closed = false;  ///< from the last node on to the first
+};
+
 /// Corners run counter-clockwise in the plane of u and v.
 struct Layout {
   std::vector<Node> nodes;
   std::vector<std::array<int, 4>> quadrilaterals;  ///< still to be cut in two
   std::vector<std::array<int, 3>> triangles;
+  std::map<std::string, Side> sides;  ///< those there are of u_min, u_max, v_min, v_max
 };
 
 /// \throws InputError that starts with `shape` for divisions below 1, or more cells than can be numbered.

@@ -68,7 +68,41 @@ ParametricSurface plane(std::function<Vec3(double, double)> point, const Vec3& o
           [n](const Vec3&) { return n; }};
 }
 
-TriangleMesh triangulate(const Layout& layout, const ParametricSurface& surface, const Cut& cut, std::string_view shape)
+namespace {
+
+std::vector<EdgeKey> edges_along(const Side& side)
+{
+  std::vector<EdgeKey> edges;
+  for (std::size_t n = 1; n < side.nodes.size(); ++n)
+    edges.push_back(edge_key(side.nodes[n - 1], side.nodes[n]));
+  if (side.closed)
+    edges.push_back(edge_key(side.nodes.back(), side.nodes.front()));
+  return edges;
+}
+
+Sets named_sides(const Layout& layout, const TriangleMesh& mesh, const SideNames& names)
+{
+  Sets sets;
+  for (const auto& [side, name] : names) {
+    const auto found = layout.sides.find(side);
+    if (found == layout.sides.end())
+      continue;
+    if (found->second.nodes.size() == 1)
+      sets.vertices[name] = found->second.nodes;
+    else
+      sets.edges[name] = edges_along(found->second);
+  }
+  for (const auto& [edge, triangles] : edge_map(mesh))
+    if (triangles.size() == 1)
+      sets.edges["boundary"].push_back(edge);
+  tidy(sets);
+  return sets;
+}
+
+}  // namespace
+
+MarkedMesh triangulate(const Layout& layout, const ParametricSurface& surface, const Cut& cut, std::string_view shape,
+                       const SideNames& side_names)
 {
   check(layout, cut, shape);
   Random random(cut.seed);
@@ -82,7 +116,8 @@ TriangleMesh triangulate(const Layout& layout, const ParametricSurface& surface,
       inner.push_back(node.inner);
     spread(mesh, surface, inner, random);
   }
-  return mesh;
+  Sets sets = named_sides(layout, mesh, side_names);
+  return {std::move(mesh), {.sets = std::move(sets)}};
 }
 
 }  // namespace luff::surface

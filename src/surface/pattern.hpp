@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "surface/layout.hpp"
-#include "surface/mesh.hpp"
+#include "surface/marked_mesh.hpp"
 
 namespace luff::surface {
 
@@ -32,10 +32,14 @@ struct ParametricSurface {
 
 ParametricSurface plane(std::function<Vec3(double u, double v)> point, const Vec3& origin, const Vec3& normal);
 
+/// What a shape calls the sides of its layout: {"u_min", "a_min"}.
+using SideNames = std::map<std::string, std::string>;
+
 /// Triangles with normals along the surface's, vertices on it in the order of the layout's nodes; nodes that are not
-/// inner ones stay where the layout has them. \throws InputError that starts with `shape` for a displacement out of
+/// inner ones stay where the layout has them. Named sides become sets of edges (of a vertex where they are a pole), and
+/// all edges of the boundary the set `boundary`. \throws InputError that starts with `shape` for a displacement out of
 /// range or a pattern that the layout does not allow.
-TriangleMesh triangulate(const Layout& layout, const ParametricSurface& surface, const Cut& cut,
-                         std::string_view shape);
+MarkedMesh triangulate(const Layout& layout, const ParametricSurface& surface, const Cut& cut, std::string_view shape,
+                       const SideNames& side_names);
 
 }  // namespace luff::surface

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.hpp"
-#include "surface/generators.hpp"
+#include "surface/round_shapes.hpp"
 
 namespace luff::surface {
 
@@ -104,10 +104,16 @@ ParametricSurface sphere(const Vec3& centre, double radius, std::function<Vec3(d
           [=](const Vec3& x) -> Vec3 { return x - centre; }};
 }
 
-TriangleMesh triangulated(const Layout& layout, const ParametricSurface& surface, const auto& shape,
-                          std::string_view name)
+MarkedMesh triangulated(const Layout& layout, const ParametricSurface& surface, const auto& shape,
+                        std::string_view name, const SideNames& sides)
 {
-  return triangulate(layout, surface, {shape.pattern, shape.displacement, shape.seed}, name);
+  return triangulate(layout, surface, {shape.pattern, shape.displacement, shape.seed}, name, sides);
+}
+
+/// u counts around, v from `v_min` to `v_max`.
+SideNames around_and(std::string v_min, std::string v_max)
+{
+  return {{"u_min", "angle_min"}, {"u_max", "angle_max"}, {"v_min", std::move(v_min)}, {"v_max", std::move(v_max)}};
 }
 
 void check(const SphereCap& shape)
@@ -118,15 +124,17 @@ void check(const SphereCap& shape)
                shape.polar.to);
 }
 
-TriangleMesh zone_with_pole(const SphereCap& shape)
+MarkedMesh zone_with_pole(const SphereCap& shape)
 {
   Axes axes = axes_of("sphere-cap", shape.frame);
   Sector angle = shape.angle;
   double opening = shape.polar.to * degree;
+  SideNames sides = {{"u_min", "polar_min"}, {"u_max", "polar_max"}, {"v_min", "angle_min"}, {"v_max", "angle_max"}};
   if (shape.polar.from > 0) {  // The other pole: half a turn about x puts it first.
     axes = {axes.x, -axes.y, -axes.z};
     angle = {-shape.angle.to, -shape.angle.from};
     opening = (180 - shape.polar.from) * degree;
+    sides = {{"u_min", "polar_max"}, {"u_max", "polar_min"}, {"v_min", "angle_max"}, {"v_max", "angle_min"}};
   }
   const auto direction = [&](double u, double v) -> Vec3 {
     const double polar = opening * u / shape.rings;
@@ -134,10 +142,10 @@ TriangleMesh zone_with_pole(const SphereCap& shape)
     return u > 0 ? Vec3(std::cos(polar) * axes.z + std::sin(polar) * axes.radial(along(angle, v))) : axes.z;
   };
   return triangulated(round_fan("sphere-cap", shape.rings, angle, opening),
-                      sphere(shape.frame.centre, shape.radius, direction), shape, "sphere-cap");
+                      sphere(shape.frame.centre, shape.radius, direction), shape, "sphere-cap", sides);
 }
 
-TriangleMesh zone_without_pole(const SphereCap& shape)
+MarkedMesh zone_without_pole(const SphereCap& shape)
 {
   const Axes axes = axes_of("sphere-cap", shape.frame);
   // Rows from the far edge to the near one: so the normal points outwards.
@@ -146,23 +154,25 @@ TriangleMesh zone_without_pole(const SphereCap& shape)
     return std::cos(polar) * axes.z + std::sin(polar) * axes.radial(along(shape.angle, u / shape.divisions[0]));
   };
   return triangulated(round_grid("sphere-cap", shape.divisions, shape.angle, shape.pattern),
-                      sphere(shape.frame.centre, shape.radius, direction), shape, "sphere-cap");
+                      sphere(shape.frame.centre, shape.radius, direction), shape, "sphere-cap",
+                      around_and("polar_max", "polar_min"));
 }
 
 }  // namespace
 
-TriangleMesh disk(const Disk& shape)
+MarkedMesh made(const Disk& shape)
 {
   check_length("disk", "radius", shape.radius);
   const Axes axes = axes_of("disk", shape.frame);
   const auto point = [&](double u, double v) -> Vec3 {
     return shape.frame.centre + u / shape.rings * shape.radius * axes.radial(along(shape.angle, v));
   };
-  return triangulated(round_fan("disk", shape.rings, shape.angle, 0), plane(point, shape.frame.centre, axes.z), shape,
-                      "disk");
+  return triangulated(
+      round_fan("disk", shape.rings, shape.angle, 0), plane(point, shape.frame.centre, axes.z), shape, "disk",
+      {{"u_min", "radius_min"}, {"u_max", "radius_max"}, {"v_min", "angle_min"}, {"v_max", "angle_max"}});
 }
 
-TriangleMesh annulus(const Annulus& shape)
+MarkedMesh made(const Annulus& shape)
 {
   check_length("annulus", "inner_radius", shape.inner_radius);
   check_length("annulus", "radius", shape.radius);
@@ -175,10 +185,11 @@ TriangleMesh annulus(const Annulus& shape)
     return shape.frame.centre + r * axes.radial(along(shape.angle, u / shape.divisions[0]));
   };
   return triangulated(round_grid("annulus", shape.divisions, shape.angle, shape.pattern),
-                      plane(point, shape.frame.centre, axes.z), shape, "annulus");
+                      plane(point, shape.frame.centre, axes.z), shape, "annulus",
+                      around_and("radius_max", "radius_min"));
 }
 
-TriangleMesh cylinder(const Cylinder& shape)
+MarkedMesh made(const Cylinder& shape)
 {
   check_length("cylinder", "radius", shape.radius);
   check_length("cylinder", "length", shape.length);
@@ -191,7 +202,8 @@ TriangleMesh cylinder(const Cylinder& shape)
                v / shape.divisions[1] * shape.length * axes.z;
       },
       [&](const Vec3& x) -> Vec3 { return x + (shape.radius / outwards(x).norm() - 1) * outwards(x); }, outwards};
-  return triangulated(round_grid("cylinder", shape.divisions, shape.angle, shape.pattern), surface, shape, "cylinder");
+  return triangulated(round_grid("cylinder", shape.divisions, shape.angle, shape.pattern), surface, shape, "cylinder",
+                      around_and("length_min", "length_max"));
 }
 
 bool has_pole(const SphereCap& shape)
@@ -199,7 +211,7 @@ bool has_pole(const SphereCap& shape)
   return shape.polar.from <= 0 || shape.polar.to >= 180;
 }
 
-TriangleMesh sphere_cap(const SphereCap& shape)
+MarkedMesh made(const SphereCap& shape)
 {
   check(shape);
   return has_pole(shape) ? zone_with_pole(shape) : zone_without_pole(shape);

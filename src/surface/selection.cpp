@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include "core/error.hpp"
+#include "core/nearest.hpp"
 
 namespace luff::surface {
 
@@ -64,18 +66,15 @@ void check(const PointWhere& point, std::string_view what)
     fail_input("{}: point = {} must be finite", what, text(point.point));
 }
 
-}  // namespace
-
-std::vector<int> select_vertices(const TriangleMesh& mesh, const Where& where, std::string_view what)
+std::vector<int> vertices_at(const TriangleMesh& mesh, const auto& where, std::string_view what)
 {
-  ensure(!mesh.vertices.empty(), "selection from an empty mesh");
-  std::visit([&](const auto& w) { check(w, what); }, where);
+  check(where, what);
   const double slack = selection_tolerance * bounding_box(mesh.vertices).size();
   std::vector<int> found;
   int nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (int v = 0; v < mesh.n_vertices(); ++v) {
-    const double d = std::visit([&](const auto& w) { return distance(w, mesh.vertices[v]); }, where);
+    const double d = distance(where, mesh.vertices[v]);
     if (d <= slack)
       found.push_back(v);
     if (d < least) {
@@ -83,13 +82,103 @@ std::vector<int> select_vertices(const TriangleMesh& mesh, const Where& where, s
       nearest = v;
     }
   }
-  if (std::holds_alternative<PointWhere>(where))
-    return {nearest};
   if (found.empty())
     fail_input(
         "{}: no vertex lies there (in the reference configuration, after rotate, translate and scale); the nearest "
         "is vertex {} at {}, {:.3g} away",
         what, nearest, text(mesh.vertices[nearest]), least);
+  return found;
+}
+
+int nearest_vertex(const TriangleMesh& mesh, const PointWhere& where)
+{
+  int nearest = 0;
+  for (int v = 1; v < mesh.n_vertices(); ++v)
+    if (distance(where, mesh.vertices[v]) < distance(where, mesh.vertices[nearest]))
+      nearest = v;
+  return nearest;
+}
+
+/// The set's vertices and those of its edges and triangles.
+std::vector<int> vertices_of(const TriangleMesh& mesh, const std::string& name, const Sets& sets)
+{
+  std::vector<int> found;
+  if (const auto set = sets.vertices.find(name); set != sets.vertices.end())
+    found = set->second;
+  if (const auto set = sets.edges.find(name); set != sets.edges.end())
+    for (const auto& [a, b] : set->second)
+      found.insert(found.end(), {a, b});
+  if (const auto set = sets.triangles.find(name); set != sets.triangles.end())
+    for (const int t : set->second)
+      found.insert(found.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+void check_name(const std::string& name, std::string_view what, const Sets& sets)
+{
+  const std::vector<std::string> known = names(sets);
+  if (known.empty())
+    fail_input("{}: set = \"{}\": the mesh has no named sets; only made meshes and VTP, VTU and Gmsh files do", what,
+               name);
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    fail_input("{}: the mesh has no set \"{}\"{}", what, name, suggestion(name, known));
+}
+
+struct VertexSelector {
+  const TriangleMesh& mesh;
+  std::string_view what;
+  const Sets& sets;
+
+  std::vector<int> operator()(const AllWhere&) const
+  {
+    std::vector<int> all(mesh.vertices.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+
+  std::vector<int> operator()(const PointWhere& where) const
+  {
+    check(where, what);
+    return {nearest_vertex(mesh, where)};
+  }
+
+  std::vector<int> operator()(const SetWhere& where) const
+  {
+    check_name(where.name, what, sets);
+    const std::vector<int> found = vertices_of(mesh, where.name, sets);
+    if (found.empty())
+      fail_input("{}: the mesh's set \"{}\" is empty", what, where.name);
+    return found;
+  }
+
+  std::vector<int> operator()(const auto& where) const { return vertices_at(mesh, where, what); }
+};
+
+}  // namespace
+
+std::vector<int> select_vertices(const TriangleMesh& mesh, const Where& where, std::string_view what, const Sets& sets)
+{
+  ensure(!mesh.vertices.empty(), "selection from an empty mesh");
+  return std::visit(VertexSelector{mesh, what, sets}, where);
+}
+
+std::vector<int> select_triangles(const TriangleMesh& mesh, const Where& where, std::string_view what, const Sets& sets)
+{
+  const std::vector<int> vertices = select_vertices(mesh, where, what, sets);
+  if (const auto* named = std::get_if<SetWhere>(&where))
+    if (const auto set = sets.triangles.find(named->name); set != sets.triangles.end() && !set->second.empty())
+      return set->second;
+  std::vector<char> chosen(mesh.vertices.size(), 0);
+  for (const int v : vertices)
+    chosen[v] = 1;
+  std::vector<int> found;
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    if (const auto& [i, j, k] = mesh.triangles[t]; chosen[i] && chosen[j] && chosen[k])
+      found.push_back(t);
+  if (found.empty())
+    fail_input("{}: no triangle lies wholly in the selection; select more, or load vertices or edges", what);
   return found;
 }
 

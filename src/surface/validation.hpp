@@ -18,10 +18,6 @@ void validate(const TriangleMesh& mesh, std::string_view where);
 /// The part of validate() that everything else needs: triangles, corner numbers in range, finite coordinates.
 void validate_numbers(const TriangleMesh& mesh, std::string_view where);
 
-/// Unite vertices closer than `tolerance` times the size of the mesh; drops unused ones. Order of first use is kept.
-/// The mesh must have passed validate_numbers().
-TriangleMesh merge_vertices(const TriangleMesh& mesh, double tolerance);
-
 /// Vertices closer than this fraction of the mesh's size are duplicates.
 inline constexpr double duplicate_tolerance = 1e-9;
 

@@ -57,32 +57,31 @@ bool Contact::may_touch(int a, int b) const
 void Contact::gather(const Eigen::VectorXd& x, double margin)
 {
   ensure(x.size() == pieces_.reference().size(), "contact needs the positions of all vertices, rigid ones included");
-  const double radius = law_.distance + 2 * margin;
   pairs_.clear();
-  gather_point_triangles(x, radius);
-  gather_edges(x, radius);
+  gather_point_triangles(x, margin);
+  gather_edges(x, margin);
 }
 
-void Contact::gather_point_triangles(const Eigen::VectorXd& x, double radius)
+void Contact::gather_point_triangles(const Eigen::VectorXd& x, double margin)
 {
   box_vertices(pieces_, x, points_);
   box_triangles(pieces_, x, triangles_);
-  points_.grow(radius);
+  points_.grow(law_.distance + 2 * margin);
   sweep_(points_, triangles_, [&](int point, int triangle) {
     const auto& [a, b, c] = pieces_.triangles()[triangle];
     if (point == a || point == b || point == c || !may_touch(point, a))
       return;
     const double area = 0.5 * std::min(pieces_.vertex_area(point), 2 * pieces_.triangle_area(triangle));
-    add_pair({{point, a, b, c}, PairKind::PointTriangle, area, law_.distance, 0}, x, radius);
+    add_pair({{point, a, b, c}, PairKind::PointTriangle, area, law_.distance, 0}, x, margin);
   });
 }
 
-void Contact::gather_edges(const Eigen::VectorXd& x, double radius)
+void Contact::gather_edges(const Eigen::VectorXd& x, double margin)
 {
   // Of |a|^2 |b|^2: the sine of 13 degrees, squared. Symmetric meshes have many edges close to parallel.
   constexpr double nearly_parallel = 0.05;
   box_edges(pieces_, x, edges_);
-  edges_.grow(0.5 * radius);
+  edges_.grow(0.5 * law_.distance + margin);
   const Eigen::VectorXd& X = pieces_.reference();
   sweep_(edges_, edges_, [&](int e, int f) {
     if (e >= f)
@@ -93,17 +92,21 @@ void Contact::gather_edges(const Eigen::VectorXd& x, double radius)
       return;
     const double area = 0.25 * std::min(pieces_.edge_area(e), pieces_.edge_area(f));
     const double lengths = (vertex(X, b) - vertex(X, a)).squaredNorm() * (vertex(X, d) - vertex(X, c)).squaredNorm();
-    add_pair({{a, b, c, d}, PairKind::EdgeEdge, area, law_.distance, nearly_parallel * lengths}, x, radius);
+    add_pair({{a, b, c, d}, PairKind::EdgeEdge, area, law_.distance, nearly_parallel * lengths}, x, margin);
   });
 }
 
-void Contact::add_pair(const ContactPair& pair, const Eigen::VectorXd& x, double radius)
+/// Keeps the pair if it can come within its reach. The reach needs the distance in the reference only when that is
+/// short.
+void Contact::add_pair(ContactPair pair, const Eigen::VectorXd& x, double margin)
 {
-  if (closest(pair.kind, corners(x, pair.vertex)).distance >= radius)
+  const double distance = closest(pair.kind, corners(x, pair.vertex)).distance;
+  if (distance >= law_.distance + 2 * margin)
     return;
-  pairs_.push_back(pair);
   const double at_rest = closest(pair.kind, corners(pieces_.reference(), pair.vertex)).distance;
-  pairs_.back().reach = std::min(law_.distance, 0.5 * at_rest);
+  pair.reach = std::min(law_.distance, 0.5 * at_rest);
+  if (distance < pair.reach + 2 * margin || at_rest == 0)
+    pairs_.push_back(pair);
 }
 
 double Contact::energy(const Eigen::VectorXd& x) const
@@ -152,11 +155,13 @@ double Contact::safe_fraction(const Eigen::VectorXd& x, const Eigen::VectorXd& d
 
 ContactReport Contact::report(const Eigen::VectorXd& x) const
 {
-  ContactReport report{std::numeric_limits<double>::infinity(), 0};
+  ContactReport report;
   for (const ContactPair& pair : pairs_) {
     const double distance = closest(pair.kind, corners(x, pair.vertex)).distance;
+    if (distance >= pair.reach)
+      continue;
     report.smallest_gap = std::min(report.smallest_gap, distance);
-    report.active_pairs += distance < pair.reach ? 1 : 0;
+    ++report.active_pairs;
   }
   return report;
 }

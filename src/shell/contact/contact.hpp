@@ -2,6 +2,7 @@
 // Contact of shells with each other, with themselves and with rigid bodies.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -20,10 +21,10 @@ struct ContactLaw {
   bool self = true;      ///< also between parts of one connected surface
 };
 
-/// How close surfaces are.
+/// The pairs that push each other.
 struct ContactReport {
-  double smallest_gap = 0;  ///< of the gathered pairs; infinity when there are none
-  int active_pairs = 0;     ///< closer than the distance of the law
+  double smallest_gap = std::numeric_limits<double>::infinity();  ///< [L]; infinity when there are none
+  int active_pairs = 0;
 };
 
 /// The pairs of surface pieces that may touch and their barrier energy. Pairs of a point and a triangle stand for half
@@ -42,7 +43,7 @@ class Contact {
   const ContactLaw& law() const { return law_; }
   const std::vector<ContactPair>& pairs() const { return pairs_; }
 
-  /// Renew the pairs: all that can come closer than the law's distance while no vertex is more than `margin` away from
+  /// Renew the pairs: all that can come to push each other while no vertex is more than `margin` away from
   /// its place in x. Depends on x and margin only.
   void gather(const Eigen::VectorXd& x, double margin);
 
@@ -59,9 +60,9 @@ class Contact {
  private:
   void check_law() const;
   void check_reference();
-  void gather_point_triangles(const Eigen::VectorXd& x, double radius);
-  void gather_edges(const Eigen::VectorXd& x, double radius);
-  void add_pair(const ContactPair& pair, const Eigen::VectorXd& x, double radius);
+  void gather_point_triangles(const Eigen::VectorXd& x, double margin);
+  void gather_edges(const Eigen::VectorXd& x, double margin);
+  void add_pair(ContactPair pair, const Eigen::VectorXd& x, double margin);
   bool may_touch(int a, int b) const;
 
   ContactPieces pieces_;

@@ -176,6 +176,26 @@ TEST(BadInput, AStaticShellThatCanMoveRigidlyIsRefused)
   expect_refusal(folder, {"case.toml:4: shell 'strip' can move as a rigid body", "add a support"});
 }
 
+TEST(BadInput, AControlledDisplacementThatIsHeldIsRefused)
+{
+  const WorkFolder folder;
+  folder.write(
+      "case.toml",
+      changed(small_strip, "[time]\nend = 0.5\nstep = 0.05\n",
+              "[structure]\nanalysis = \"displacement-control\"\n[structure.control]\nwhere = { point = [0, 0, 0] "
+              "}\ncomponent = \"z\"\ndisplacement = 0.2\n"));
+  expect_refusal(folder,
+                 {"case.toml:4: shell 'strip': the controlled displacement z of vertex 0 is held by a support"});
+}
+
+TEST(BadInput, DisplacementControlWithoutADisplacementIsRefused)
+{
+  const WorkFolder folder;
+  folder.write("case.toml", changed(small_strip, "[time]\nend = 0.5\nstep = 0.05\n",
+                                    "[structure]\nanalysis = \"displacement-control\"\n"));
+  expect_refusal(folder, {"structure.control is missing"});
+}
+
 TEST(BadInput, ACaseThatIsNotThereIsRefused)
 {
   const WorkFolder folder;

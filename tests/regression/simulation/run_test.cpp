@@ -22,6 +22,7 @@ const Columns step_columns{"step",
                            "elastic [energy]",
                            "damping_work [energy]",
                            "external_work [energy]",
+                           "support_work [energy]",
                            "seconds_search [s]",
                            "seconds_momentum [s]",
                            "seconds_cut_cells [s]",
@@ -254,6 +255,51 @@ TEST(AStructureAlone, IsLoadedToItsEquilibriumInAStaticRun)
   const double stiffness = 1000.0 * 0.25 * std::pow(0.05, 3) / 12.0;
   const double deflection = 0.001 / (3.0 * stiffness);
   EXPECT_NEAR(end.column("displacement_z [length]").back(), deflection, 0.05 * deflection);
+}
+
+// Turned by a quarter about the clamp's corner and lifted, without load: the end moves rigidly.
+TEST(ARun, OfAStaticAnalysisTakesAShellAlongWithItsClamp)
+{
+  const WorkFolder folder;
+  std::string text =
+      changed(small_strip, "[time]\nend = 0.5\nstep = 0.05\n", "[structure]\nanalysis = \"static\"\nsteps = 15\n");
+  text = changed(text, "type = \"clamped\"\n",
+                 "type = \"clamped\"\nmotion = { translation = [0, 0, \"2*t\"], rotation = { axis = [0, 1, 0], angle = "
+                 "\"-90*t\" } }\n");
+  run_well(folder, changed(text, "0.001*t", "0"));
+  const Table end = read_table(folder.path() / "out/probe-end.csv");
+  EXPECT_NEAR(end.column("displacement_x [length]").back(), -1.0, 1e-9);
+  EXPECT_NEAR(end.column("displacement_z [length]").back(), 3.0, 1e-9);
+}
+
+TEST(ARun, OfAShakenStripCountsTheWorkOfItsSupport)
+{
+  const WorkFolder folder;
+  run_well(folder, changed(small_strip, "type = \"clamped\"\n",
+                           "type = \"clamped\"\nmotion = { translation = [0, 0, \"0.02*(1 - cos(6*t))\"] }\n"),
+           "out", {"--set", "structure.scheme=midpoint", "--set", "time.step=0.01"});
+  const Table steps = read_table(folder.path() / "out/steps.csv");
+  const double stored = steps.column("kinetic [energy]").back() + steps.column("elastic [energy]").back();
+  const double supplied = steps.column("external_work [energy]").back() + steps.column("support_work [energy]").back();
+  EXPECT_GT(steps.column("support_work [energy]").back(), 0.1 * supplied);
+  EXPECT_NEAR(stored / supplied, 1.0, 0.02);
+}
+
+TEST(AStructureAlone, IsBroughtToAPrescribedDisplacement)
+{
+  const WorkFolder folder;
+  run_well(folder,
+           changed(small_strip, "[time]\nend = 0.5\nstep = 0.05\n",
+                   "[structure]\nanalysis = \"displacement-control\"\nsteps = 4\n[structure.control]\nwhere = { point "
+                   "= [1, 0, 0] }\ncomponent = \"z\"\ndisplacement = 0.2\n"));
+  const Table end = read_table(folder.path() / "out/probe-end.csv");
+  const Table steps = read_table(folder.path() / "out/steps-strip.csv");
+  EXPECT_EQ(steps.column("step"), (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_EQ(steps.column("load_factor"), end.column("load_factor"));
+  EXPECT_EQ(steps.column("negative_pivots"), (std::vector<double>{0, 0, 0, 0}));
+  for (int step = 1; step <= 4; ++step)
+    EXPECT_NEAR(end.column("displacement_z [length]")[step - 1], 0.05 * step, 1e-12);
+  EXPECT_EQ(read_summary(folder.path() / "out")["load_factor"], end.column("load_factor").back());
 }
 
 TEST(Commands, CheckPrintsTheGroupsOfAValidCaseAndWritesNothing)

@@ -58,6 +58,12 @@ TEST(ACaseFile, SetsShellsAndBodies)
   EXPECT_EQ(flag.gravity, Vec3(0.0, -9.81, 0.0));
   EXPECT_EQ(flag.supports[0].type, SupportType::Clamped);
   EXPECT_EQ(flag.supports[1].fixed, (std::vector{Component::X, Component::Z}));
+  EXPECT_EQ(flag.mass, MassMatrix::Lumped);
+  EXPECT_EQ(flag.supports[1].motion->translation.evaluate(Vec3(2, 0, 0), 3.0), Vec3(0.0, 0.0, 0.1 * 3.0 * 2.0));
+  EXPECT_EQ(flag.supports[1].motion->rotation->angle.evaluate(Vec3::Zero(), 0.5), 10.0);
+  EXPECT_EQ(flag.supports[2].type, SupportType::Elastic);
+  EXPECT_EQ(flag.supports[2].stiffness, Vec3(1, 2, 3));
+  EXPECT_EQ(flag.supports[2].turning_stiffness, 4);
   EXPECT_EQ((*flag.supports[1].where.box)[1], Vec3(1.0, 1.0, -0.5));
   EXPECT_EQ(flag.loads[0].force->evaluate(Vec3::Zero(), 2.0), Vec3(0.0, 80.0, 0.0));
   EXPECT_EQ(flag.loads[1].pressure->evaluate(Vec3::Zero(), 1.0), 2.0);
@@ -94,6 +100,8 @@ TEST(ACaseFile, SetsSolversAndOutput)
 {
   const Case c = every_key();
   EXPECT_EQ(c.structure.solver, StructureSolver::Cg);
+  EXPECT_EQ(c.structure.scheme, StructureScheme::GeneralisedAlpha);
+  EXPECT_EQ(c.structure.rho_inf, 0.5);
   EXPECT_EQ(c.pressure, (PressureOptions{PressureSolver::Petsc, PressureTolerance::Fast, 77}));
   EXPECT_EQ(c.coupling, (CouplingOptions{CouplingScheme::Loose, CouplingAcceleration::Aitken, 0.25, 1e-6, 12}));
   EXPECT_EQ(c.output.fields->what, (std::vector{FlowField::Velocity, FlowField::QCriterion}));
@@ -101,6 +109,28 @@ TEST(ACaseFile, SetsSolversAndOutput)
   EXPECT_TRUE(c.output.plots);
   EXPECT_EQ(c.output.probes[0], (ProbeOptions{"tip", "flag", Vec3(1.0, 0.0, 0.0)}));
   EXPECT_EQ(c.output.probes[1].shell, std::nullopt);
+}
+
+TEST(AShellAlone, MayFollowItsPathOfEquilibria)
+{
+  const std::string strip =
+      "[[shell]]\nname = \"strip\"\nthickness = 0.1\ndensity = 1\n"
+      "mesh = { shape = \"rectangle\", origin = [0, 0, 0], a = [10, 0, 0], b = [0, 1, 0], divisions = [32, 4] }\n"
+      "material = { model = \"saint-venant-kirchhoff\", young = 1.2e6, poisson = 0 }\n";
+  const Case arc = load_text(strip + "[structure]\nanalysis = \"arc-length\"\nsteps = 8\nmax_steps = 70\n");
+  EXPECT_EQ(arc.structure.analysis, Analysis::ArcLength);
+  EXPECT_EQ(arc.structure.max_steps, 70);
+  EXPECT_EQ(load_text(written(arc)), arc);
+  const Case control =
+      load_text(strip +
+                "[structure]\nanalysis = \"displacement-control\"\ncontrol = { where = { point = [10, 0, "
+                "0] }, component = \"y\", displacement = -2.5 }\n");
+  EXPECT_EQ(control.structure.control.component, Component::Y);
+  EXPECT_EQ(control.structure.control.displacement, -2.5);
+  EXPECT_EQ(load_text(written(control)), control);
+  const Case damped = load_text(strip + "[structure]\nanalysis = \"static\"\nstabilisation = \"damping\"\n");
+  EXPECT_EQ(damped.structure.stabilisation, StructureStabilisation::Damping);
+  EXPECT_EQ(load_text(written(damped)), damped);
 }
 
 TEST(AShellAlone, NeedsNoFluidNoGridAndNoBoundary)

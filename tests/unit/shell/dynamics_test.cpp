@@ -220,13 +220,13 @@ TEST(Dynamics, FailureTellsStepTimePlaceAndRemedy)
   }
 }
 
-TEST(Dynamics, ForcesThatAreNotNumbersStopTheRun)
+TEST(Dynamics, ForcesThatAreNotNumbersStopTheStep)
 {
   const Flag flag;
   Dynamics dynamics(flag.shell, flag.loads());
   Eigen::VectorXd fluid = flag.fluid();
   fluid[20] = std::nan("");
-  EXPECT_THROW(dynamics.solve(dt, dt, fluid, dynamics.predicted_positions(dt)), RunError);
+  EXPECT_THROW(dynamics.solve(dt, dt, fluid, dynamics.predicted_positions(dt)), NonConvergence);
 }
 
 TEST(Dynamics, SharpFoldStopsTheRunAndKeepsTheState)

@@ -88,9 +88,10 @@ TEST(Support, BadSupportsAreRefusedByNameAndNumber)
             std::string::npos);
   EXPECT_NE(refusal({{.kind = SupportKind::Clamped, .vertices = {7}}}).find("no slope to keep"), std::string::npos);
   EXPECT_NE(refusal({{.kind = SupportKind::Symmetry, .vertices = {0, 1}, .normal = Vec3(1, 1, 0)}})
-                .find("must be normal to x, y or z"),
+                .find("away from the plane through vertex 0 with normal [0.707107, 0.707107, 0]"),
             std::string::npos);
-  EXPECT_NE(refusal({{.kind = SupportKind::Symmetry, .vertices = {0, 1, 12}}}).find("is not in the plane x = 0"),
+  EXPECT_NE(refusal({{.kind = SupportKind::Symmetry, .vertices = {0, 1, 12}}})
+                .find("the edges selected are not in one plane"),
             std::string::npos);
 }
 

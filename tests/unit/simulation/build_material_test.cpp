@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "simulation/build_material.hpp"
+#include "simulation/build_mesh.hpp"
 #include "support/program.hpp"
 #include "surface/generators.hpp"
 
@@ -22,9 +23,9 @@ config::ShellOptions leaflet(const config::FibreOptions& fibre)
   return options;
 }
 
-surface::TriangleMesh square()
+surface::MarkedMesh square()
 {
-  return surface::rectangle({.a = Vec3::UnitX(), .b = Vec3::UnitY(), .divisions = {1, 1}});
+  return surface::make(surface::Rectangle{.a = Vec3::UnitX(), .b = Vec3::UnitY(), .divisions = {1, 1}});
 }
 
 TEST(BuildMaterial, GivesEachLawItsConstants)
@@ -69,7 +70,8 @@ TEST(BuildMaterial, TurnsAFieldOfTheFileWithItsMesh)
   config::ShellOptions options = leaflet(fibre);
   options.mesh.file = file;
   options.placement.rotate = config::RotateOptions{.axis = Vec3(0, 0, 2), .angle = 90};
-  const std::vector<Vec3> directions = build_fibres(options, square());
+  const surface::MarkedMesh placed = build_mesh(options.mesh, options.placement, "shell 'leaflet'");
+  const std::vector<Vec3> directions = build_fibres(options, placed);
   ASSERT_EQ(directions.size(), 2u);
   EXPECT_LT((directions[0] - Vec3::UnitY()).norm(), 1e-15);
   EXPECT_LT((directions[1] + Vec3::UnitX()).norm(), 1e-15);
@@ -81,7 +83,7 @@ TEST(BuildMaterial, RefusesFibresThatHaveNoDirectionInTheSheet)
   normal.direction = Vec3::UnitZ();
   field.field = "grain";
   EXPECT_THROW(build_fibres(leaflet(normal), square()), InputError);
-  EXPECT_THROW(build_fibres(leaflet(field), square()), InputError) << "there is no file";
+  EXPECT_THROW(build_fibres(leaflet(field), square()), InputError) << "a made mesh has none";
 }
 
 }  // namespace

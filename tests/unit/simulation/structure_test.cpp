@@ -38,7 +38,9 @@ Shells pulled_strip()
 
 RigidSheet moving_sheet(std::function<Vec3(const Vec3&, double)> position)
 {
-  return {.name = "sheet", .mesh = strip(), .position = std::move(position), .moves = true};
+  shell::Motion motion;
+  motion.translation = [position = std::move(position)](const Vec3& X, double t) -> Vec3 { return position(X, t) - X; };
+  return {.name = "sheet", .mesh = strip(), .motion = std::move(motion), .moves = true};
 }
 
 Structure strip_and_sheet(std::function<Vec3(const Vec3&, double)> position)

@@ -146,22 +146,5 @@ TEST(Validation, SurfaceWithOneSideIsRefused)
   expect_all(refusal(band), {"one side", "cut"});
 }
 
-TEST(Validation, MergingUnitesCloseVerticesAndKeepsTriangles)
-{
-  TriangleMesh soup;
-  const TriangleMesh whole = sheet(1e-3);
-  for (const auto& t : whole.triangles) {
-    const int first = soup.n_vertices();
-    for (const int v : t)
-      soup.vertices.push_back(whole.vertices[v] + 1e-11 * Vec3(first % 2, first % 3, 0));
-    soup.triangles.push_back({first, first + 1, first + 2});
-  }
-  const TriangleMesh merged = merge_vertices(soup, 1e-6);
-  EXPECT_EQ(merged.n_vertices(), whole.n_vertices());
-  EXPECT_EQ(merged.n_triangles(), whole.n_triangles());
-  EXPECT_EQ(refusal(merged), "accepted");
-  EXPECT_NEAR(total_area(merged), total_area(whole), 1e-6 * total_area(whole));
-}
-
 }  // namespace
 }  // namespace luff::surface

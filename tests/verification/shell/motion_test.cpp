@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Newmark's method: momentum, frequency, order in time, energy.
+// Motion in time by each scheme: momentum, frequency, order in time, energy, moving supports.
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "shell/dynamics.hpp"
+#include "support/free_flight.hpp"
 #include "support/linear_shell.hpp"
 #include "support/shells.hpp"
 
@@ -28,46 +29,45 @@ void advance(Dynamics& dynamics, double dt, int steps)
   }
 }
 
-Vec3 sum(const Eigen::VectorXd& nodal)
+/// Errors after 500 steps, the energy's largest on the way.
+test::FreeFlight::Errors fly(const TimeScheme& scheme, bool lumped_mass)
 {
-  return nodal.reshaped(3, nodal.size() / 3).rowwise().sum();
+  test::FreeFlight flight(scheme, lumped_mass);
+  double energy = 0;
+  for (int n = 0; n < 500; ++n) {
+    flight.step(2e-3);
+    energy = std::max(energy, std::abs(flight.errors().energy));
+  }
+  const auto [last, momentum, angular_momentum] = flight.errors();
+  std::printf("  after 500 steps: momentum %.1e, angular momentum %.1e, largest energy error %.1e\n", momentum,
+              angular_momentum, energy);
+  return {energy, momentum, angular_momentum};
 }
 
-Vec3 angular_momentum(const Shell& shell, const State& state)
-{
-  const Eigen::VectorXd p = shell.mass_times(state.v);
-  Vec3 L = Vec3::Zero();
-  for (int v = 0; v < shell.n_vertices(); ++v)
-    L += Vec3(state.x.segment<3>(3 * v)).cross(Vec3(p.segment<3>(3 * v)));
-  return L;
-}
-
-// Translation, spin, bending and twist of large amplitude, nothing held, no damping.
 TEST(Motion, FreeFlightKeepsMomentumAndEnergy)
 {
-  const Shell shell(test::sheet(1, 0.7, 6, 4),
-                    {.thickness = 0.02, .density = 1, .material = SaintVenantKirchhoff{1e5, 0.3}}, {});
-  Eigen::VectorXd v0(3 * shell.n_vertices());
-  for (int v = 0; v < shell.n_vertices(); ++v) {
-    const Vec3 r = shell.reference().vertices[v] - Vec3(0.5, 0.35, 0);
-    v0.segment<3>(3 * v) =
-        Vec3(0.3, 0.1, 0.2) + Vec3(1, 0.5, 2).cross(r) + Vec3(0, 0, 4 * (r.x() * r.x() - 1.0 / 12) + 4 * r.x() * r.y());
+  const auto error = fly(TimeScheme::newmark(), false);
+  EXPECT_LT(error.momentum, 1e-10);
+  EXPECT_LT(error.angular_momentum, 1e-4);
+  EXPECT_LT(error.energy, 1e-3);
+}
+
+TEST(Motion, FreeFlightByTheMidpointRuleKeepsAngularMomentumToRoundOff)
+{
+  for (const bool lumped : {false, true}) {
+    const auto error = fly(TimeScheme::midpoint(), lumped);
+    EXPECT_LT(error.momentum, 1e-10);
+    EXPECT_LT(error.angular_momentum, 1e-10);
+    EXPECT_LT(error.energy, 1e-3);
   }
-  Dynamics dynamics(shell, {}, {}, 0, v0);
-  const Vec3 P = sum(shell.mass_times(dynamics.accepted().v)), L = angular_momentum(shell, dynamics.accepted());
-  const double E = dynamics.ledger().kinetic + dynamics.ledger().elastic;
-  double energy_error = 0;
-  for (int n = 0; n < 500; ++n) {
-    advance(dynamics, 2e-3, 1);
-    energy_error = std::max(energy_error, std::abs((dynamics.ledger().kinetic + dynamics.ledger().elastic) / E - 1));
-  }
-  const double dP = (sum(shell.mass_times(dynamics.accepted().v)) - P).norm() / P.norm();
-  const double dL = (angular_momentum(shell, dynamics.accepted()) - L).norm() / L.norm();
-  std::printf("  after 500 steps: momentum %.1e, angular momentum %.1e, largest energy error %.1e\n", dP, dL,
-              energy_error);
-  EXPECT_LT(dP, 1e-10);
-  EXPECT_LT(dL, 1e-4);
-  EXPECT_LT(energy_error, 1e-3);
+}
+
+TEST(Motion, GeneralisedAlphaLosesEnergyButNoMomentum)
+{
+  const auto error = fly(TimeScheme::generalised_alpha(0.5), false);
+  EXPECT_LT(error.momentum, 1e-10);
+  EXPECT_GT(error.energy, 1e-6);
+  EXPECT_LT(error.energy, 0.1);
 }
 
 struct Strip {
@@ -134,19 +134,67 @@ TEST(Motion, PositionsAndVelocitiesAreSecondOrderInTime)
   Eigen::VectorXd v0 = Eigen::VectorXd::Zero(3 * mesh.n_vertices());
   for (int v = 0; v < mesh.n_vertices(); ++v)
     v0[3 * v + 2] = 8 * std::pow(mesh.vertices[v].x(), 2);
-  const auto state_after = [&](int steps) {
-    Dynamics dynamics(shell, {}, {}, 0, v0);
-    advance(dynamics, 0.08 / steps, steps);
-    return dynamics.accepted();
+  for (const TimeScheme& scheme : {TimeScheme::newmark(), TimeScheme::generalised_alpha(0.8), TimeScheme::midpoint()}) {
+    const auto state_after = [&](int steps) {
+      Dynamics dynamics(shell, {}, {.scheme = scheme}, 0, v0);
+      advance(dynamics, 0.08 / steps, steps);
+      return dynamics.accepted();
+    };
+    const State a = state_after(1600), b = state_after(3200), c = state_after(6400);
+    const double order_x = test::observed_order((a.x - b.x).norm(), (b.x - c.x).norm());
+    const double order_v = test::observed_order((a.v - b.v).norm(), (b.v - c.v).norm());
+    const double height = c.x.reshaped(3, mesh.n_vertices()).row(2).maxCoeff();
+    std::printf("  order of positions %.3f, of velocities %.3f; tip at height %.2f\n", order_x, order_v, height);
+    EXPECT_GT(height, 0.3);
+    EXPECT_NEAR(order_x, 2, 0.05);
+    EXPECT_NEAR(order_v, 2, 0.05);
+  }
+}
+
+// The clamp moves by A (1 - cos W t). Relative to it the beam's modes phi_n, of unit mean square and with participation
+// g_n = 2 sigma_n/beta_n, follow q'' + w_n^2 q = -g_n A W^2 cos(W t): q = g_n A W^2 (cos w_n t - cos W t)/(w_n^2 -
+// W^2).
+TEST(Motion, CantileverShakenAtItsClampFollowsItsModes)
+{
+  struct Mode {
+    double beta, sigma, tip;
   };
-  const State a = state_after(1600), b = state_after(3200), c = state_after(6400);
-  const double order_x = test::observed_order((a.x - b.x).norm(), (b.x - c.x).norm());
-  const double order_v = test::observed_order((a.v - b.v).norm(), (b.v - c.v).norm());
-  const double height = c.x.reshaped(3, mesh.n_vertices()).row(2).maxCoeff();
-  std::printf("  order of positions %.3f, of velocities %.3f; tip at height %.2f\n", order_x, order_v, height);
-  EXPECT_GT(height, 0.3);
-  EXPECT_NEAR(order_x, 2, 0.05);
-  EXPECT_NEAR(order_v, 2, 0.05);
+  const Mode modes[] = {{1.8751040687, 0.7340955138, 2},
+                        {4.6940911330, 1.0184673190, -2},
+                        {7.8547574382, 0.9992244965, 2},
+                        {10.9955407349, 1.0000335533, -2}};
+  const double EI_per_mass = 1e6 * 1e-4 / 12, A = 1e-4, W = 2.2 * euler_bernoulli;
+  const auto exact = [&](double t) {
+    double w = A * (1 - std::cos(W * t));
+    for (const Mode& m : modes) {
+      const double w_n = m.beta * m.beta * std::sqrt(EI_per_mass);
+      w += m.tip * 2 * m.sigma / m.beta * A * W * W * (std::cos(w_n * t) - std::cos(W * t)) / (w_n * w_n - W * W);
+    }
+    return w;
+  };
+  const surface::TriangleMesh mesh = test::sheet(1, 0.2, 20, 3);
+  const Shell shell(mesh, {.thickness = 0.01, .density = 1, .material = SaintVenantKirchhoff{1e6, 0}},
+                    {{.kind = SupportKind::Clamped,
+                      .vertices = test::vertices_where(mesh, [](auto& X) { return X.x() == 0; }),
+                      .motion = Motion{.translation = [=](const Vec3&, double t) {
+                        return Vec3(0, 0, A * (1 - std::cos(W * t)));
+                      }}}});
+  const int tip = test::vertices_where(mesh, [](auto& X) { return X.x() == 1; })[1];
+  const double period = 2 * M_PI / euler_bernoulli, dt = period / 200;
+  for (const TimeScheme& scheme : {TimeScheme::newmark(), TimeScheme::generalised_alpha(0.8), TimeScheme::midpoint()}) {
+    Dynamics dynamics(shell, {}, {.scheme = scheme, .first_step = dt});
+    double largest = 0, error = 0;
+    for (int n = 1; n <= 400; ++n) {
+      advance(dynamics, dt, 1);
+      const double w = exact(dynamics.accepted().t);
+      largest = std::max(largest, std::abs(w));
+      error = std::max(error, std::abs(dynamics.accepted().x[3 * tip + 2] - w));
+    }
+    std::printf("  tip moves by up to %.2f of the shaking, largest error %.2f %% of that\n", largest / A,
+                100 * error / largest);
+    EXPECT_LT(error, 0.03 * largest);
+    EXPECT_GT(largest, 2 * A);
+  }
 }
 
 TEST(Motion, DampingFollowsRayleighsFormula)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Edit distance and suggestions.
-#include "config/nearest.hpp"
+#include "core/nearest.hpp"
 
 #include <algorithm>
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
-namespace luff::config {
+namespace luff {
 namespace {
 
 /// Optimal string alignment distance: row i holds the distances from the first i letters of `a` to prefixes of `b`.
@@ -62,4 +62,4 @@ std::string joined(const std::vector<std::string>& names)
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-}  // namespace luff::config
+}  // namespace luff

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Suggestions for misspelt names.
-#include "config/nearest.hpp"
+#include "core/nearest.hpp"
 
 #include <gtest/gtest.h>
 
-namespace luff::config {
+namespace luff {
 namespace {
 
 const std::vector<std::string> known{"end", "step", "scheme", "max_iterations"};
@@ -33,4 +33,4 @@ TEST(Suggestions, NameTheNearestOrElseAll)
 }
 
 }  // namespace
-}  // namespace luff::config
+}  // namespace luff

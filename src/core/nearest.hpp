@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace luff::config {
+namespace luff {
 
 /// The known name with the least edit distance (insertions, deletions, substitutions, swaps of neighbours), unless even
 /// that one differs in more than a third of its letters (but two at least may differ in a name of four or more).
@@ -19,4 +19,4 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& kn
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& names);
 
-}  // namespace luff::config
+}  // namespace luff

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Triangles, sets and fields of vectors from the files that VTK reads.
+#include "surface/vtk_reader.hpp"
+
+#include <algorithm>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkIdList.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSTLReader.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include "core/error.hpp"
+#include "surface/validation.hpp"
+
+namespace luff::surface {
+
+namespace {
+
+/// Collects what VTK would print.
+class Transcript : public vtkOutputWindow {
+ public:
+  static Transcript* New();
+  void DisplayText(const char* text) override { text_ += text; }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+vtkStandardNewMacro(Transcript)
+
+    /// Puts a transcript in the place of VTK's output window and log for as long as it lives.
+    class Listening {
+ public:
+  Listening() : before_(vtkOutputWindow::GetInstance()), verbosity_before_(vtkLogger::GetCurrentVerbosityCutoff())
+  {
+    vtkOutputWindow::SetInstance(transcript_);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~Listening()
+  {
+    vtkOutputWindow::SetInstance(before_);
+    vtkLogger::SetStderrVerbosity(verbosity_before_);
+  }
+  Listening(const Listening&) = delete;
+  Listening& operator=(const Listening&) = delete;
+
+  const std::string& heard() const { return transcript_->text(); }
+
+ private:
+  vtkSmartPointer<vtkOutputWindow> before_;
+  vtkLogger::Verbosity verbosity_before_;
+  vtkNew<Transcript> transcript_;
+};
+
+/// One line of VTK's complaint, without its addresses.
+std::string complaint(const std::string& heard)
+{
+  std::string text = heard.substr(heard.rfind("): ") == std::string::npos ? 0 : heard.rfind("): ") + 3);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && text.back() == ' ')
+    text.pop_back();
+  return text;
+}
+
+using File = std::filesystem::path;
+
+template <class Reader>
+auto read(Reader& reader, const File& file, const std::string& kind)
+{
+  const Listening listening;
+  reader.SetFileName(file.c_str());
+  try {
+    reader.Update();
+  } catch (const std::exception& error) {  // of memory, where the file promises more than it holds
+    fail_input("{}: cannot be read as {}: {}; write the file again", file.string(), kind.substr(1), error.what());
+  }
+  if (!listening.heard().empty())
+    fail_input("{}: cannot be read as {}: {}; write the file again", file.string(), kind.substr(1),
+               complaint(listening.heard()));
+  vtkSmartPointer data = reader.GetOutput();
+  if (!data || data->GetNumberOfPoints() == 0)
+    fail_input("{}: holds no surface that can be read as {}; is it another kind of file?", file.string(),
+               kind.substr(1));
+  return data;
+}
+
+void add_triangles(vtkCellArray& cells, const File& file, TriangleMesh& mesh)
+{
+  if (!cells.IsValid())
+    fail_input("{}: its polygons' offsets don't fit their corners; write the file again", file.string());
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType t = 0; t < cells.GetNumberOfCells(); ++t) {
+    cells.GetCellAtId(t, corners);
+    if (corners->GetNumberOfIds() != 3)
+      fail_input("{}: polygon {} has {} corners; cut it into triangles (ParaView: Triangulate)", file.string(), t,
+                 corners->GetNumberOfIds());
+    mesh.triangles.push_back({static_cast<int>(corners->GetId(0)), static_cast<int>(corners->GetId(1)),
+                              static_cast<int>(corners->GetId(2))});
+  }
+}
+
+TriangleMesh triangles(vtkPolyData& data, const File& file)
+{
+  if (data.GetNumberOfStrips() + data.GetNumberOfLines() + data.GetNumberOfVerts() > 0)
+    fail_input("{}: holds {} strips, {} lines and {} points besides polygons; keep only triangles", file.string(),
+               data.GetNumberOfStrips(), data.GetNumberOfLines(), data.GetNumberOfVerts());
+  TriangleMesh mesh;
+  add_triangles(*data.GetPolys(), file, mesh);
+  return mesh;
+}
+
+TriangleMesh triangles(vtkUnstructuredGrid& data, const File& file)
+{
+  for (vtkIdType c = 0; c < data.GetNumberOfCells(); ++c)
+    if (data.GetCellType(c) != VTK_TRIANGLE)
+      fail_input(
+          "{}: cell {} is of VTK's type {}, not a triangle (type {}); extract the surface and keep only triangles",
+          file.string(), c, data.GetCellType(c), int(VTK_TRIANGLE));
+  TriangleMesh mesh;
+  if (data.GetNumberOfCells() > 0)
+    add_triangles(*data.GetCells(), file, mesh);
+  return mesh;
+}
+
+std::vector<int> not_zero(vtkDataArray& array)
+{
+  std::vector<int> members;
+  for (vtkIdType i = 0; i < array.GetNumberOfTuples(); ++i)
+    if (array.GetComponent(i, 0) != 0)
+      members.push_back(static_cast<int>(i));
+  return members;
+}
+
+std::vector<Vec3> vectors(vtkDataArray& array)
+{
+  std::vector<Vec3> result;
+  for (vtkIdType i = 0; i < array.GetNumberOfTuples(); ++i)
+    result.emplace_back(array.GetTuple3(i));
+  return result;
+}
+
+std::vector<Vec3> averaged_over_corners(const std::vector<Vec3>& at_points, const TriangleMesh& mesh)
+{
+  std::vector<Vec3> result;
+  for (const auto& [i, j, k] : mesh.triangles)
+    result.push_back((at_points[i] + at_points[j] + at_points[k]) / 3);
+  return result;
+}
+
+/// Calls `visit(name, array)` for the arrays with a name and as many numbers as there should be.
+void for_each_array(vtkDataSetAttributes& attributes, std::size_t tuples, const auto& visit)
+{
+  for (int a = 0; a < attributes.GetNumberOfArrays(); ++a) {
+    vtkDataArray* array = attributes.GetArray(a);  // none for text
+    if (array && array->GetName() && array->GetNumberOfTuples() == static_cast<vtkIdType>(tuples))
+      visit(std::string(array->GetName()), *array);
+  }
+}
+
+void add_marks(vtkDataSet& data, MarkedMesh& marked)
+{
+  Marks& marks = marked.marks;
+  for_each_array(*data.GetPointData(), marked.mesh.vertices.size(), [&](const std::string& name, vtkDataArray& array) {
+    if (array.GetNumberOfComponents() == 1)
+      marks.sets.vertices[name] = not_zero(array);
+    else if (array.GetNumberOfComponents() == 3)
+      marks.directions[name] = averaged_over_corners(vectors(array), marked.mesh);
+  });
+  for_each_array(*data.GetCellData(), marked.mesh.triangles.size(), [&](const std::string& name, vtkDataArray& array) {
+    if (array.GetNumberOfComponents() == 1)
+      marks.sets.triangles[name] = not_zero(array);
+    else if (array.GetNumberOfComponents() == 3)
+      marks.directions[name] = vectors(array);
+  });
+}
+
+template <class Reader>
+MarkedMesh read_as(const File& file, const std::string& kind)
+{
+  vtkNew<Reader> reader;
+  if constexpr (std::is_same_v<Reader, vtkSTLReader>)
+    reader->MergingOff();
+  const auto data = read(*reader, file, kind);
+  MarkedMesh marked{.mesh = triangles(*data, file)};
+  for (vtkIdType v = 0; v < data->GetNumberOfPoints(); ++v)
+    marked.mesh.vertices.emplace_back(data->GetPoint(v));
+  validate_numbers(marked.mesh, file.string());
+  if (kind == ".vtp" || kind == ".vtu")
+    add_marks(*data, marked);
+  return marked;
+}
+
+}  // namespace
+
+MarkedMesh read_vtk(const std::filesystem::path& file, const std::string& kind)
+{
+  if (kind == ".stl")
+    return read_as<vtkSTLReader>(file, kind);
+  if (kind == ".vtu")
+    return read_as<vtkXMLUnstructuredGridReader>(file, kind);
+  return read_as<vtkXMLPolyDataReader>(file, kind);
+}
+
+}  // namespace luff::surface
