@@ -16,7 +16,7 @@ constexpr double side = 0.02, thickness = 5e-4;  // a leaflet: 2 cm, half a mill
 
 Properties leaflet_properties()
 {
-  return {.thickness = thickness, .density = 1100, .young = 5e5, .poisson = 0.4};
+  return {.thickness = thickness, .density = 1100, .material = SaintVenantKirchhoff{5e5, 0.4}};
 }
 
 /// What happened on the way.

@@ -25,7 +25,7 @@ struct TwoBarTruss {
       : mesh(bar()),
         crown(test::vertices_where(mesh, [](const Vec3& X) { return X.x() == span; })),
         shell(
-            mesh, {.thickness = thickness, .density = 1, .young = young, .poisson = 0},
+            mesh, {.thickness = thickness, .density = 1, .material = SaintVenantKirchhoff{young, 0}},
             {{.kind = SupportKind::Hinged, .vertices = test::vertices_where(mesh, [](auto& X) { return X.x() == 0; })},
              {.kind = SupportKind::Fixed, .vertices = crown, .components = {true, true, false}}})
   {
@@ -159,7 +159,7 @@ struct Roof {
 
   explicit Roof(double thickness, int n = 8)
       : mesh(quarter(n)),
-        shell(mesh, {.thickness = thickness, .density = 1, .young = 3102.75, .poisson = 0.3}, supports())
+        shell(mesh, {.thickness = thickness, .density = 1, .material = SaintVenantKirchhoff{3102.75, 0.3}}, supports())
   {
   }
 
@@ -234,7 +234,7 @@ TEST(Column, NegativePivotsTellThatAStraightColumnIsUnstableAndDampingBendsIt)
   const surface::TriangleMesh mesh = test::sheet(1, width, 64, 2, surface::Pattern::Alternating);
   const auto foot = test::vertices_where(mesh, [](auto& X) { return X.x() == 0; });
   const auto head = test::vertices_where(mesh, [](auto& X) { return X.x() == 1; });
-  const Shell column(mesh, {.thickness = h, .density = 1, .young = young, .poisson = 0},
+  const Shell column(mesh, {.thickness = h, .density = 1, .material = SaintVenantKirchhoff{young, 0}},
                      {{.kind = SupportKind::Hinged, .vertices = foot},
                       {.kind = SupportKind::Fixed, .vertices = head, .components = {false, true, true}}});
   const double euler = std::numbers::pi * std::numbers::pi * young * width * h * h * h / 12;
