@@ -120,8 +120,9 @@ void check_name(const std::string& name, std::string_view what, const Sets& sets
 {
   const std::vector<std::string> known = names(sets);
   if (known.empty())
-    fail_input("{}: set = \"{}\": the mesh has no named sets; only made meshes and VTP, VTU and Gmsh files do", what,
-               name);
+    fail_input(
+        "{}: set = \"{}\": the mesh has no named sets; made meshes and VTP, VTU, OBJ and Gmsh files may have them",
+        what, name);
   if (std::find(known.begin(), known.end(), name) == known.end())
     fail_input("{}: the mesh has no set \"{}\"{}", what, name, suggestion(name, known));
 }
