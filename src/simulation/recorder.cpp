@@ -40,7 +40,11 @@ std::vector<output::Column> step_columns()
                                       {"elastic", "energy"},
                                       {"damping_work", "energy"},
                                       {"external_work", "energy"},
-                                      {"support_work", "energy"}};
+                                      {"support_work", "energy"},
+                                      {"contact_energy", "energy"},
+                                      {"contact_pairs", ""},
+                                      {"smallest_gap", "length"},
+                                      {"newton_iterations", ""}};
   for (const char* phase : phase_names)
     columns.push_back({std::string("seconds_") + phase, "s"});
   return columns;
@@ -175,6 +179,9 @@ void Recorder::write_steps(const StepRecord& record)
                           energy.damping_work,
                           energy.external_work,
                           energy.support_work};
+  append_contact(row);
+  row.push_back(double(simulation_.structure().newton_iterations() - newton_iterations_));
+  newton_iterations_ = simulation_.structure().newton_iterations();
   auto* flow = simulation_.surroundings().flow();
   for (std::size_t n = 0; n < phase_names.size(); ++n) {
     const double seconds = simulation_.profile().all()[n] + (flow ? flow->profile().all()[n] : 0.0);
@@ -185,6 +192,39 @@ void Recorder::write_steps(const StepRecord& record)
   if (flow)
     flow->profile().reset();
   steps_->row(row);
+}
+
+/// A gap is known where surfaces push each other only.
+void Recorder::append_contact(std::vector<double>& row)
+{
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  const shell::ContactStep* contact = simulation_.structure().contact();
+  if (contact == nullptr) {
+    row.insert(row.end(), 3, nothing);
+    return;
+  }
+  const shell::ContactReport& report = contact->report();
+  row.push_back(contact->energy());
+  row.push_back(double(report.active_pairs));
+  row.push_back(report.active_pairs > 0 ? report.smallest_gap : nothing);
+  most_pairs_ = std::max(most_pairs_, report.active_pairs);
+  smallest_gap_ = std::min(smallest_gap_, report.smallest_gap);
+}
+
+/// Contact is built so that none occur; a run says what it saw all the same.
+void Recorder::count_crossings()
+{
+  if (const shell::ContactStep* contact = simulation_.structure().contact())
+    crossings_ += contact->crossings().count;
+}
+
+void Recorder::report_contact(nlohmann::ordered_json& summary) const
+{
+  summary["contact"] = {{"most_pairs", most_pairs_}, {"crossings", crossings_}};
+  if (most_pairs_ > 0)
+    summary["contact"]["smallest_gap"] = smallest_gap_;
+  if (crossings_ > 0)
+    log_->warn("contact: {} edges pass through triangles in all written instants together", crossings_);
 }
 
 void Recorder::warn_about_limits(const StepRecord& record)
@@ -251,8 +291,10 @@ void Recorder::write_snapshots(double t, double dt, bool last)
     flow->fill_halos();
     fields_->write(t, flow_snapshot(*flow, options_.output.fields->what));
   }
-  if (options_.output.shells && shells_due_.due(t, last))
+  if (options_.output.shells && shells_due_.due(t, last)) {
     write_shells(t, dt);
+    count_crossings();
+  }
 }
 
 void Recorder::write_shells(double t, double dt)
@@ -376,8 +418,11 @@ void Recorder::finish(Ending ending, const std::string& reason)
     summary["mean_coupling_iterations"] = coupling_iterations_ / steps;
     summary["max_coupling_iterations"] = most_coupling_iterations_;
     summary["halved_steps"] = halvings_;
+    summary["mean_newton_iterations"] = double(simulation_.structure().newton_iterations()) / steps;
     summary["folds_above_45_degrees"] = simulation_.structure().sharp_folds();
   }
+  if (simulation_.structure().contact() != nullptr)
+    report_contact(summary);
   for (std::size_t n = 0; n < phase_names.size(); ++n)
     summary["phases"][phase_names[n]] = profile_.all()[n];
   log_->info("{} at t = {:.6g} after {} steps in {:.1f} s", state, clock.now(), clock.steps(),

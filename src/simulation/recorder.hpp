@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ class Recorder {
   void open_tables();
   void open_probe(const config::ProbeOptions& options);
   void write_steps(const StepRecord& record);
+  void append_contact(std::vector<double>& row);
+  void count_crossings();
+  void report_contact(nlohmann::ordered_json& summary) const;
   void write_forces(double t);
   void write_probes(double t, double dt);
   void write_snapshots(double t, double dt, bool last);
@@ -83,6 +87,10 @@ class Recorder {
   long pressure_iterations_ = 0;
   long halvings_ = 0;
   long steps_beyond_limits_ = 0;
+  long newton_iterations_ = 0;  ///< up to the last step written
+  int most_pairs_ = 0;
+  double smallest_gap_ = std::numeric_limits<double>::infinity();
+  long crossings_ = 0;
   double seconds_stepping_ = 0.0;
 };
 

@@ -35,7 +35,8 @@ std::optional<coupling::FixedPointReport> Simulation::try_step(const TimeStep& s
       return report;
     reject(step, report);
   } catch (const NonConvergence& error) {  // of the shell or the pressure, inside a coupling iteration
-    if (policy_.scheme == Scheme::Loose || d.size() == 0 || clock_.rejections() >= policy_.halvings)
+    const bool loose = policy_.scheme == Scheme::Loose && surroundings_->flow() != nullptr;
+    if (loose || d.size() == 0 || clock_.rejections() >= policy_.halvings)
       throw;
     acceleration_->end_step(/*converged=*/false);
     trouble_ = error.what();
@@ -51,9 +52,20 @@ bool Simulation::acceptable(const coupling::FixedPointReport& report) const
          (policy_.scheme == Scheme::Loose && report.outcome != coupling::FixedPointOutcome::NotFinite);
 }
 
+/// Without a flow the first solution is the last.
+coupling::FixedPointReport Simulation::advance_alone(const TimeStep& step, Eigen::VectorXd& d)
+{
+  const immersed::SheetLoads none = surroundings_->loads(structure_->velocity(d, step));
+  const auto timer = profile_.time(Phase::Shell);
+  d = structure_->solve(step, none, d);
+  return {.outcome = coupling::FixedPointOutcome::Converged, .iterations = 1, .residual = 0.0, .history = {0.0}};
+}
+
 /// The fixed point d = S(F(d)) of one step, from the accepted states of flow and structure.
 coupling::FixedPointReport Simulation::advance(const TimeStep& step, Eigen::VectorXd& d)
 {
+  if (surroundings_->flow() == nullptr)
+    return advance_alone(step, d);
   surroundings_->begin_step(step, structure_->motion(d, step));  // the geometry stays frozen at d^0
   const coupling::InterfaceMap flow_then_structure = [&](const Eigen::VectorXd& guess) {
     const immersed::SheetLoads loads = surroundings_->loads(structure_->velocity(guess, step));  // F

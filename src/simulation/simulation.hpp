@@ -62,6 +62,7 @@ class Simulation {
  private:
   [[nodiscard]] std::optional<coupling::FixedPointReport> try_step(const TimeStep& step, Eigen::VectorXd& d);
   [[nodiscard]] coupling::FixedPointReport advance(const TimeStep& step, Eigen::VectorXd& d);
+  [[nodiscard]] coupling::FixedPointReport advance_alone(const TimeStep& step, Eigen::VectorXd& d);
   [[nodiscard]] bool acceptable(const coupling::FixedPointReport& report) const;
   void reject(const TimeStep& step, const coupling::FixedPointReport& report);
 

@@ -113,7 +113,9 @@ Eigen::VectorXd Structure::solve(const TimeStep& step, const immersed::SheetLoad
   loads_ = loads;
   if (!shells_.dynamics)
     return d;
-  return shells_.dynamics->solve(step.t_new, step.dt, forces_on_shells(), d).positions;
+  shell::Dynamics::Trial trial = shells_.dynamics->solve(step.t_new, step.dt, forces_on_shells(), d);
+  newton_iterations_ += trial.report.iterations;
+  return std::move(trial.positions);
 }
 
 void Structure::accept(const TimeStep& step, const Eigen::VectorXd& d)

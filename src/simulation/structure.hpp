@@ -82,6 +82,13 @@ class Structure {
   [[nodiscard]] std::string place_of(const Eigen::VectorXd& d) const;
   /// Of all shells together.
   [[nodiscard]] shell::EnergyLedger energy() const;
+  /// Null without contact.
+  [[nodiscard]] const shell::ContactStep* contact() const
+  {
+    return shells_.dynamics ? shells_.dynamics->contact() : nullptr;
+  }
+  /// Of all solutions so far.
+  [[nodiscard]] long newton_iterations() const { return newton_iterations_; }
   [[nodiscard]] long sharp_folds() const { return sharp_folds_; }
 
  private:
@@ -96,6 +103,7 @@ class Structure {
   int vertices_ = 0;
   double length_ = 1.0;
   immersed::SheetLoads loads_;
+  long newton_iterations_ = 0;
   long sharp_folds_ = 0;
 };
 

@@ -5,10 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
-#include <cstdlib>
 
 namespace luff::shell {
 
@@ -90,107 +87,18 @@ PairGradient pair_gradient(const ContactPair& pair, const Corners& x, double sti
   return gradient;
 }
 
-namespace {
-
-/// Ways in which the closest points slide on their pieces: differences of the weights of corners `to` and `from`.
-struct Slides {
-  int n = 0;
-  std::array<int, 2> from{}, to{};
-
-  void add(int a, int b)
-  {
-    from[n] = a;
-    to[n++] = b;
-  }
-};
-
-Slides slides(PairKind kind, const Closest& near)
-{
-  Slides s;
-  const auto add_between = [&](int a, int b) {
-    if (near.weight[a] != 0 && near.weight[b] != 0)
-      s.add(a, b);
-  };
-  if (kind == PairKind::EdgeEdge) {
-    add_between(0, 1);
-    add_between(2, 3);
-    return s;
-  }
-  add_between(1, 2);
-  if (s.n == 1)
-    add_between(2, 3);
-  else
-    near.weight[1] != 0 ? add_between(1, 3) : add_between(2, 3);
-  return s;
-}
-
-/// Hessian of D = d^2/2 where the closest points slide freely: D_xx - D_xs (D_ss)^-1 D_sx with r = sum_k c_k x_k,
-/// D_x_k = c_k r, D_s = r . dr/ds = 0.
-PairHessian half_square_hessian(PairKind kind, const Closest& near, const Corners& x)
-{
-  PairHessian H;
-  for (int k = 0; k < 4; ++k)
-    for (int l = 0; l < 4; ++l)
-      H.block<3, 3>(3 * k, 3 * l) = near.weight[k] * near.weight[l] * Mat3::Identity();
-  const Slides s = slides(kind, near);
-  const Vec3 r = near.distance * near.normal;
-  Eigen::Matrix<double, 12, 2> mixed = Eigen::Matrix<double, 12, 2>::Zero();
-  Eigen::Matrix<double, 3, 2> tangent = Eigen::Matrix<double, 3, 2>::Zero();
-  for (int i = 0; i < s.n; ++i) {
-    tangent.col(i) = x[s.to[i]] - x[s.from[i]];
-    for (int k = 0; k < 4; ++k)
-      mixed.block<3, 1>(3 * k, i) = near.weight[k] * tangent.col(i);
-    mixed.block<3, 1>(3 * s.to[i], i) += r;
-    mixed.block<3, 1>(3 * s.from[i], i) -= r;
-  }
-  if (s.n == 1)
-    H -= mixed.col(0) * mixed.col(0).transpose() / tangent.col(0).squaredNorm();
-  if (s.n == 2)
-    H -= mixed * (tangent.transpose() * tangent).inverse() * mixed.transpose();
-  return H;
-}
-
-/// Hessian of c = |e x f|^2 in the corners, e = x1 - x0, f = x3 - x2.
-PairHessian parallelogram_hessian(const Vec3& e, const Vec3& f)
-{
-  const Mat3 I = Mat3::Identity();
-  const Mat3 ee = 2 * (f.squaredNorm() * I - f * f.transpose()), ff = 2 * (e.squaredNorm() * I - e * e.transpose());
-  const Mat3 ef = 4 * e * f.transpose() - 2 * f * e.transpose() - 2 * e.dot(f) * I;
-  PairHessian H;
-  H << ee, -ee, ef, -ef, -ee, ee, -ef, ef, ef.transpose(), -ef.transpose(), ff, -ff, -ef.transpose(), ef.transpose(),
-      -ff, ff;
-  return H;
-}
-
-}  // namespace
-
+/// s s' with s = sqrt(area m b'') grad d, symmetric to the last bit
 PairHessian pair_hessian(const ContactPair& pair, const Corners& x, double stiffness)
 {
   const Closest near = closest(pair.kind, x);
   if (near.distance >= pair.reach)
     return PairHessian::Zero();
-  const BarrierValue b = barrier(near.distance, pair.reach, stiffness);
-  const Mollifier m = mollifier(pair, x);
-  PairGradient g;
+  const double curvature = barrier(near.distance, pair.reach, stiffness).curvature;
+  const double root = std::sqrt(pair.area * mollifier(pair, x).value * curvature);
+  PairGradient s;
   for (int k = 0; k < 4; ++k)
-    g.segment<3>(3 * k) = near.weight[k] * near.normal;
-  static const int mode = getenv("CMODE") ? atoi(getenv("CMODE")) : 0;
-  if (mode == 0 || (mode == 1 && m.slope == 0))
-    return pair.area * m.value * b.curvature * g * g.transpose();
-  PairHessian H = m.value * (b.curvature - b.slope / near.distance) * g * g.transpose() +
-                  m.value * b.slope / near.distance * half_square_hessian(pair.kind, near, x);
-  if (m.slope > 0) {
-    const Vec3 e = x[1] - x[0], f = x[3] - x[2];
-    const Vec3 by_e = 2 * (f.squaredNorm() * e - e.dot(f) * f);
-    const Vec3 by_f = 2 * (e.squaredNorm() * f - e.dot(f) * e);
-    PairGradient q;
-    q << -by_e, by_e, -by_f, by_f;
-    H += m.slope * b.slope * (g * q.transpose() + q * g.transpose()) -
-         2 / (pair.parallel * pair.parallel) * b.energy * q * q.transpose() +
-         b.energy * m.slope * parallelogram_hessian(e, f);
-  }
-  const Eigen::SelfAdjointEigenSolver<PairHessian> eigen(pair.area * H);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+    s.segment<3>(3 * k) = root * near.weight[k] * near.normal;
+  return s * s.transpose();
 }
 
 }  // namespace luff::shell

@@ -19,7 +19,7 @@ double largest_move(const Eigen::VectorXd& dz)
   return most;
 }
 
-/// Factorise; a singular matrix is not positive definite either.
+/// Factorise; a singular matrix is not positive definite either. Conjugate gradients find out later.
 bool is_positive_definite(LinearSolver& solver, const BlockMatrix& K)
 {
   try {
