@@ -5,7 +5,7 @@
 Usage: validation/shell-dynamics/free_flight.py [--steps N] [--out DIR]
 
 An irregular plate of 48 triangles translates, spins, bends and twists with large amplitude, without dissipation, in steps
-of 2.7e-3: six times the time in which a stretching wave crosses a triangle. Builds build/release with benchmarks, writes
+of 1.35e-3: three times the time in which a stretching wave crosses a triangle. Builds build/release with benchmarks, writes
 DIR/free_flight.png (default validation/shell-dynamics/results) and prints a table.
 """
 import argparse
@@ -27,7 +27,7 @@ def fly(scheme, mass, steps, out):
     table = out / f"{scheme}-{mass}.csv"
     program = build / "benchmarks" / "benchmark_shell_free_flight"
     with open(table, "w") as file:
-        subprocess.run([program, scheme, str(steps), "2.7e-3", mass], stdout=file, check=True)
+        subprocess.run([program, scheme, str(steps), "1.35e-3", mass], stdout=file, check=True)
     with open(table) as file:
         return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
