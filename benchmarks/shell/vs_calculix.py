@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """CPU time of one Newton iteration (assembly, factorisation, solve) of luff and of CalculiX on the same triangles.
 
-Usage: benchmarks/shell/vs_calculix.py [--divisions 16 50 158] [--repeats 3] [--benchmark PROGRAM]
+Usage: benchmarks/shell/vs_calculix.py [--divisions 16 50 158] [--elements S3 S6] [--repeats 3] [--increments 4]
 
-A hinged square plate, L = 1, h = 0.01, E = 1e6, nu = 0.3, under a follower pressure that deflects it by 1.3 h; irregular
+A hinged square plate, L = 1, h = 0.01, E = 1e6, nu = 0.3, under a follower pressure that deflects it by 1.26 h; irregular
 triangles. CalculiX solves it with S3 and S6 elements (*STATIC, NLGEOM), on the same triangles, one thread, its own
-direct solver. Its time of one iteration is the difference of two runs, in one and in four load increments, divided by
+direct solver. Its time of one iteration is the difference of two runs, in one and in several load increments, divided by
 the difference of their iterations: reading, set-up and output are in both and drop out. luff's is that of Newton's
 method without the one analysis of the matrix, printed by benchmark_shell_newton. Programs take turns, the medians count.
 
@@ -24,7 +24,6 @@ from pathlib import Path
 from statistics import median
 
 root = Path(__file__).resolve().parents[2]
-few, many = 1, 4  # load increments
 one_thread = {**os.environ, "OMP_NUM_THREADS": "1", "CCX_NPROC_EQUATION_SOLVER": "1", "NUMBER_OF_CPUS": "1"}
 
 
@@ -106,22 +105,23 @@ def run_calculix(folder, kind, vertices, triangles, increments):
     return seconds, iterations, deflection
 
 
-def calculix_iteration(folder, kind, mesh):
+def calculix_iteration(folder, kind, mesh, increments):
     """CPU seconds per iteration, deflection."""
-    seconds, iterations, deflection = zip(*(run_calculix(folder, kind, *mesh, n) for n in (few, many)))
+    seconds, iterations, deflection = zip(*(run_calculix(folder, kind, *mesh, n) for n in (1, increments)))
     return (seconds[1] - seconds[0]) / (iterations[1] - iterations[0]), deflection[1]
 
 
-def measure(program, divisions, repeats):
+def measure(divisions, options):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        luff, peers = [], {"S3": [], "S6": []}
-        for _ in range(repeats):
-            _, line = cpu_seconds([program, str(divisions), str(many), "plate.mesh"], folder)
+        luff, peers = [], {kind: [] for kind in options.elements}
+        for _ in range(options.repeats):
+            program = str(options.benchmark.resolve())
+            _, line = cpu_seconds([program, str(divisions), str(options.increments), "plate.mesh"], folder)
             luff.append(json.loads(line))
             mesh = read_mesh(folder / "plate.mesh")
             for kind, results in peers.items():
-                results.append(calculix_iteration(folder, kind, mesh))
+                results.append(calculix_iteration(folder, kind, mesh, options.increments))
     return luff, peers
 
 
@@ -140,7 +140,9 @@ def report(luff, peers):
 def main():
     parser = argparse.ArgumentParser(description="time of a Newton iteration against CalculiX")
     parser.add_argument("--divisions", type=int, nargs="+", default=[16, 50, 158], help="2 n^2 triangles each")
+    parser.add_argument("--elements", nargs="+", default=["S3", "S6"], choices=["S3", "S6"])
     parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--increments", type=int, default=4, help="of the longer run, at least 2")
     parser.add_argument("--benchmark", type=Path, default=root / "build/release/benchmarks/benchmark_shell_newton")
     options = parser.parse_args()
     if shutil.which("ccx") is None:
@@ -148,7 +150,7 @@ def main():
     if not options.benchmark.exists():
         sys.exit(f"{options.benchmark} is missing: configure with -DLUFF_BENCHMARKS=ON and build")
     for divisions in options.divisions:
-        report(*measure(str(options.benchmark.resolve()), divisions, options.repeats))
+        report(*measure(divisions, options))
 
 
 main()

@@ -99,7 +99,7 @@ void state_case_rules(Schema& s, const Case& options)
   s.rule(options.structure.solver == StructureSolver::Direct ||
              (options.structure.stabilisation == StructureStabilisation::None &&
               (options.structure.analysis == Analysis::Dynamic || options.structure.analysis == Analysis::Static)),
-         "structure.solver", "must be \"direct\" on paths with unstable equilibria, and with damping");
+         "structure.solver", "must be \"direct\" for modes, on paths with unstable equilibria, and with damping");
   s.rule(flows || options.contact || options.bodies.empty(), "body", "must be left out without a [fluid] or [contact]");
   s.rule(flows || !options.output.fields, "output.fields", "must be left out without a [fluid]");
   state_names_rule(s, options);

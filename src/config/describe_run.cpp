@@ -35,14 +35,23 @@ void describe(Schema& s, StructureOptions& structure)
         {.doc = "`dynamic`: motion in time. The others, only without a fluid, find equilibria under loads that grow in "
                 "proportion from nothing to what they are at t = 1. `static`: by equal load steps. `arc-length`: along "
                 "the path of equilibria, through limit points and snap-back, until it first reaches the whole load. "
-                "`displacement-control`: by equal steps of a displacement, the load following."});
-  s.when(structure.analysis != Analysis::Dynamic, "`static`, `arc-length` or `displacement-control`", [&] {
-    s.key(
-        "steps", structure.steps,
-        {.doc = "Equal steps; shortened where one fails, and lengthened again. `arc-length`: the first step is as long "
-                "as the first of so many load steps would be.",
-         .range = at_least_one});
+                "`displacement-control`: by equal steps of a displacement, the load following. `modes`: natural "
+                "frequencies and modes."});
+  const bool modes = structure.analysis == Analysis::Modes;
+  s.when(modes, "`analysis = \"modes\"`", [&] {
+    s.key("modes", structure.modes, {.doc = "How many, the lowest ones.", .range = at_least_one});
+    s.key("preload", structure.preload,
+          {.doc = "Vibrations about the equilibrium under the loads, found as by `static`, instead of the reference "
+                  "configuration without loads."});
   });
+  s.when(structure.analysis != Analysis::Dynamic && (!modes || structure.preload),
+         "`static`, `arc-length`, `displacement-control` or `preload`", [&] {
+           s.key("steps", structure.steps,
+                 {.doc = "Equal steps; shortened where one fails, and lengthened again. `arc-length`: the first step "
+                         "is as long "
+                         "as the first of so many load steps would be.",
+                  .range = at_least_one});
+         });
   s.when(structure.analysis == Analysis::Static, "`analysis = \"static\"`", [&] {
     s.key("stabilisation", structure.stabilisation,
           {.doc = "Where the shell cannot carry more: `none`, the run fails; `damping`, it moves on, damped, until it "
@@ -56,8 +65,10 @@ void describe(Schema& s, StructureOptions& structure)
     s.table("control", structure.control,
             {.doc = "The displacement that is prescribed; only with a single shell.", .required = true});
   });
-  s.key("solver", structure.solver,
-        {.doc = "Linear solver in Newton's method: sparse Cholesky, or conjugate gradients."});
+  s.key(
+      "solver", structure.solver,
+      {.doc = "Linear solver in Newton's method: a sparse factorisation, conjugate gradients, or these with incomplete "
+              "Cholesky. The iterative ones only where shells neither buckle nor snap."});
   s.when(structure.analysis == Analysis::Dynamic, "`analysis = \"dynamic\"`", [&] {
     s.key(
         "scheme", structure.scheme,

@@ -336,9 +336,9 @@ struct BodyOptions {
 
 // ---- how it is solved ------------------------------------------------------------------------------------------
 
-enum class Analysis { Dynamic, Static, ArcLength, DisplacementControl };
+enum class Analysis { Dynamic, Static, ArcLength, DisplacementControl, Modes };
 enum class StructureStabilisation { None, Damping };
-enum class StructureSolver { Direct, Cg };
+enum class StructureSolver { Direct, Cg, CgIc };
 enum class StructureScheme { Newmark, GeneralisedAlpha, Midpoint };
 
 /// The displacement prescribed in displacement control: the mean of one component over vertices of the only shell.
@@ -358,6 +358,8 @@ struct StructureOptions {
   int max_steps = 1000;                                                 ///< of arc-length
   StructureStabilisation stabilisation = StructureStabilisation::None;  ///< of load control
   ControlOptions control;
+  int modes = 10;        ///< how many of the lowest
+  bool preload = false;  ///< modes about the equilibrium under the loads
   StructureSolver solver = StructureSolver::Direct;
   StructureScheme scheme = StructureScheme::Newmark;
   double numerical_damping = 0.0;  ///< of Newmark's scheme

@@ -94,7 +94,8 @@ inline Words<Analysis> words(Analysis)
   return {{{Analysis::Dynamic, "dynamic"},
            {Analysis::Static, "static"},
            {Analysis::ArcLength, "arc-length"},
-           {Analysis::DisplacementControl, "displacement-control"}}};
+           {Analysis::DisplacementControl, "displacement-control"},
+           {Analysis::Modes, "modes"}}};
 }
 
 inline Words<StructureStabilisation> words(StructureStabilisation)
@@ -104,7 +105,7 @@ inline Words<StructureStabilisation> words(StructureStabilisation)
 
 inline Words<StructureSolver> words(StructureSolver)
 {
-  return {{{StructureSolver::Direct, "direct"}, {StructureSolver::Cg, "cg"}}};
+  return {{{StructureSolver::Direct, "direct"}, {StructureSolver::Cg, "cg"}, {StructureSolver::CgIc, "cg-ic"}}};
 }
 
 inline Words<StructureScheme> words(StructureScheme)

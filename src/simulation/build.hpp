@@ -27,6 +27,7 @@ struct LoadedShell {
 [[nodiscard]] LoadedShell build_shell(const std::vector<config::ShellOptions>& options);
 [[nodiscard]] shell::ControlledDisplacement build_control(const config::ControlOptions& options,
                                                           const shell::Shell& shell);
+[[nodiscard]] shell::LinearSolverKind build_solver(config::StructureSolver solver);
 [[nodiscard]] std::unique_ptr<Structure> build_structure(const config::Case& options);
 
 [[nodiscard]] std::array<std::vector<double>, 3> build_coordinates(const config::GridOptions& options);

@@ -223,8 +223,7 @@ Shells build_shells(const config::Case& options, const std::vector<RigidSheet>& 
   dynamics.scheme = scheme_of(options.structure);
   dynamics.first_step = options.time.step;
   dynamics.fold_limit = options.structure.fold_limit;
-  if (options.structure.solver == config::StructureSolver::Cg)
-    dynamics.linear_solver = shell::LinearSolverKind::ConjugateGradients;
+  dynamics.linear_solver = build_solver(options.structure.solver);
   if (options.contact)
     dynamics.contact = contact_of(*options.contact, rigid);
   shells.dynamics = refusing_at(options.contact ? options.contact->mark : config::Mark{}, [&] {
@@ -244,6 +243,19 @@ shell::ControlledDisplacement build_control(const config::ControlOptions& option
     shell::check_controllable(shell, control);
     return control;
   });
+}
+
+shell::LinearSolverKind build_solver(config::StructureSolver solver)
+{
+  switch (solver) {
+    case config::StructureSolver::Cg:
+      return shell::LinearSolverKind::ConjugateGradients;
+    case config::StructureSolver::CgIc:
+      return shell::LinearSolverKind::CgIncompleteCholesky;
+    case config::StructureSolver::Direct:
+      break;
+  }
+  return shell::LinearSolverKind::Direct;
 }
 
 std::unique_ptr<Structure> build_structure(const config::Case& options)

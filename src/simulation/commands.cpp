@@ -15,6 +15,7 @@
 #include "simulation/check_flow.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/mark_fields.hpp"
+#include "simulation/modes_run.hpp"
 #include "simulation/recorder.hpp"
 #include "simulation/static_run.hpp"
 
@@ -82,9 +83,14 @@ void set_threads(MPI_Comm comm, const config::Case& options, const Threads& thre
   omp_set_num_threads(std::clamp(static_cast<int>(cells / 20000.0), 1, threads.at_most));
 }
 
-bool is_static(const config::Case& options)
+bool marches(const config::Case& options)
 {
-  return options.structure.analysis != config::Analysis::Dynamic;
+  return options.structure.analysis == config::Analysis::Dynamic;
+}
+
+std::vector<LoadedShell> build_still(const config::Case& options)
+{
+  return options.structure.analysis == config::Analysis::Modes ? build_modes(options) : build_static(options);
 }
 
 void picture(const output::RunFolder& folder, spdlog::logger& log, const config::Case& options, const RunOptions& run)
@@ -144,13 +150,16 @@ void run_case(MPI_Comm comm, const std::filesystem::path& file, const config::Ov
   // All that can be refused is refused before the folder is made.
   const config::Case options = config::load_case(file, overrides);
   set_threads(comm, options, run.threads);
-  if (is_static(options)) {
+  if (!marches(options)) {
     const auto structure = build_structure(options);
-    const std::vector<LoadedShell> shells = build_static(options);
+    const std::vector<LoadedShell> shells = build_still(options);
     const output::RunFolder folder = make_folder(comm, file, run);
     const auto log = start_log(folder, options);
     say_groups(*log, options, *structure);
-    run_static(folder, log, options, shells, anywhere(comm, run.interrupted));
+    if (options.structure.analysis == config::Analysis::Modes)
+      run_modes(folder, log, options, shells);
+    else
+      run_static(folder, log, options, shells, anywhere(comm, run.interrupted));
     picture(folder, *log, options, run);
   } else {
     const auto simulation = build_simulation(comm, options);
@@ -169,8 +178,8 @@ void check_case(MPI_Comm comm, const std::filesystem::path& file, const config::
   check_sheets_inside(options, *structure);
   if (options.fluid)
     check_flow(*build_grid(comm, options), options);
-  if (is_static(options))
-    (void)build_static(options);
+  if (!marches(options))
+    (void)build_still(options);
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   if (rank != 0)

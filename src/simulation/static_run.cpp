@@ -7,18 +7,15 @@
 
 #include "output/csv.hpp"
 #include "output/series.hpp"
-#include "output/summary.hpp"
 #include "shell/path_following.hpp"
 #include "simulation/build.hpp"
 #include "surface/selection.hpp"
 #include "simulation/refusal.hpp"
+#include "simulation/still_run.hpp"
 
 namespace luff::simulation {
 
 namespace {
-
-/// Loads grow in proportion from nothing to what they are at this time.
-constexpr double end_of_loading = 1.0;
 
 /// Displacement of one vertex against the load factor.
 struct StaticProbe {
@@ -45,19 +42,6 @@ std::vector<StaticProbe> open_probes(const output::RunFolder& folder, const conf
   return probes;
 }
 
-output::SurfaceSnapshot snapshot(const shell::Shell& shell, const Eigen::VectorXd& x)
-{
-  output::SurfaceSnapshot result;
-  const Eigen::VectorXd u = x - shell.reference_positions();
-  result.points = surface::points(x);
-  result.triangles = shell.reference().triangles;
-  result.point_fields.push_back({"displacement", 3, std::vector<double>(u.data(), u.data() + u.size())});
-  return result;
-}
-
-/// Thrown where the user asks the run to end.
-struct Stopped {};
-
 /// Writes the equilibria of one shell as they are found.
 class StaticRecorder {
  public:
@@ -75,13 +59,13 @@ class StaticRecorder {
                 {"sharp_folds", ""}}),
         series_(folder, "shell-" + shell.name())
   {
-    series_.write(0.0, snapshot(shell, shell.reference_positions()));
+    series_.write(0.0, displaced(shell, shell.reference_positions()));
   }
 
   void record(const shell::StaticStep& step, nlohmann::ordered_json& summary)
   {
     // On a path the load factor may return to a value; its instants are numbered by steps.
-    series_.write(by_load_ ? step.load_factor : step.step, snapshot(shell_, step.positions));
+    series_.write(by_load_ ? step.load_factor : step.step, displaced(shell_, step.positions));
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     const auto pivots = step.report.negative_pivots;
     steps_.row(std::array<double, 7>{double(step.step), step.load_factor, double(step.iterations),
@@ -103,19 +87,6 @@ class StaticRecorder {
   output::SurfaceSeries series_;
 };
 
-shell::StaticOptions static_options(const config::StructureOptions& structure)
-{
-  shell::StaticOptions options;
-  options.steps = structure.steps;
-  options.time = end_of_loading;
-  options.fold_limit = structure.fold_limit;
-  if (structure.solver == config::StructureSolver::Cg)
-    options.linear_solver = shell::LinearSolverKind::ConjugateGradients;
-  if (structure.stabilisation == config::StructureStabilisation::Damping)
-    options.stabilisation = shell::Stabilisation::Damping;
-  return options;
-}
-
 void analyse(const LoadedShell& loaded, const config::StructureOptions& structure, const shell::OnStaticStep& on_step)
 {
   const shell::StaticOptions options = static_options(structure);
@@ -129,6 +100,7 @@ void analyse(const LoadedShell& loaded, const config::StructureOptions& structur
       break;
     case config::Analysis::Static:
     case config::Analysis::Dynamic:
+    case config::Analysis::Modes:
       shell::solve_static(*loaded.shell, loaded.loads, options, on_step);
       break;
   }
@@ -145,25 +117,6 @@ std::string told(const shell::StaticStep& step)
   if (step.folds.n_sharp > 0)
     text += fmt::format(", {} edges folded by more than 45 degrees", step.folds.n_sharp);
   return text;
-}
-
-/// Runs `load`, which fills the summary, and writes the summary however it ends.
-template <class Load>
-void summarise(const output::RunFolder& folder, spdlog::logger& log, nlohmann::ordered_json& summary, Load load)
-{
-  try {
-    load();
-    summary["state"] = "finished";
-  } catch (const Stopped&) {
-    summary["state"] = "stopped";
-  } catch (const std::exception& error) {
-    summary["reason"] = error.what();
-    output::write_summary(folder, summary);
-    throw;
-  }
-  output::write_summary(folder, summary);
-  log.info("{}; tables: {}; summary: {}", summary["state"].get<std::string>(), folder.file("probe-*.csv").string(),
-           folder.file("summary.json").string());
 }
 
 }  // namespace
@@ -185,7 +138,7 @@ void run_static(const output::RunFolder& folder, const std::shared_ptr<spdlog::l
                 const std::function<bool()>& interrupted)
 {
   nlohmann::ordered_json summary{{"title", options.title}, {"state", "failed"}};
-  summarise(folder, *log, summary, [&] {
+  summarise(folder, *log, summary, "probe-*.csv", [&] {
     for (const LoadedShell& loaded : shells) {
       const std::string& name = loaded.shell->name();
       log->info("open in ParaView: {}", folder.file("shell-" + name + ".pvd").string());

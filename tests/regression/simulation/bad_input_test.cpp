@@ -176,6 +176,14 @@ TEST(BadInput, AStaticShellThatCanMoveRigidlyIsRefused)
   expect_refusal(folder, {"case.toml:4: shell 'strip' can move as a rigid body", "add a support"});
 }
 
+TEST(BadInput, MoreModesThanUnknownsAreRefused)
+{
+  const WorkFolder folder;
+  folder.write("case.toml", changed(small_strip, "[time]\nend = 0.5\nstep = 0.05\n",
+                                    "[structure]\nanalysis = \"modes\"\nmodes = 25\n"));
+  expect_refusal(folder, {"case.toml:5: shell 'strip': modes = 25 must be from 1 to 24"});
+}
+
 TEST(BadInput, AControlledDisplacementThatIsHeldIsRefused)
 {
   const WorkFolder folder;

@@ -306,6 +306,23 @@ TEST(AStructureAlone, IsBroughtToAPrescribedDisplacement)
   EXPECT_EQ(read_summary(folder.path() / "out")["load_factor"], end.column("load_factor").back());
 }
 
+TEST(AStructureAlone, VibratesAtItsNaturalFrequencies)
+{
+  const WorkFolder folder;
+  const std::string text =
+      changed(small_strip, "[time]\nend = 0.5\nstep = 0.05\n", "[structure]\nanalysis = \"modes\"\nmodes = 4\n");
+  run_well(folder, changed(text, "divisions = [4, 1]", "divisions = [16, 4]"));
+  const Table table = read_table(folder.path() / "out/frequencies-strip.csv");
+  EXPECT_EQ(table.column("mode"), (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_EQ(read_series(folder.path() / "out/shell-strip.pvd").size(), 4U);
+  const std::vector<double> omega = table.column("angular_frequency [1/time]");
+  EXPECT_EQ(read_summary(folder.path() / "out")["angular_frequencies"]["strip"], omega);
+  // A slender beam: omega = 1.8751^2 sqrt(E I/(rho A)) / L^2.
+  const double exact = 1.8751 * 1.8751 * std::sqrt(1000.0 * 0.05 * 0.05 / 12.0);
+  EXPECT_NEAR(omega[0], exact, 0.02 * exact);
+  EXPECT_NEAR(table.column("frequency [1/time]")[0], omega[0] / (2.0 * 3.14159265358979), 1e-12 * omega[0]);
+}
+
 TEST(Commands, CheckPrintsTheGroupsOfAValidCaseAndWritesNothing)
 {
   const WorkFolder folder;

@@ -133,6 +133,23 @@ TEST(AShellAlone, MayFollowItsPathOfEquilibria)
   EXPECT_EQ(load_text(written(damped)), damped);
 }
 
+TEST(AShellAlone, MayVibrate)
+{
+  const std::string strip =
+      "[[shell]]\nname = \"strip\"\nthickness = 0.1\ndensity = 1\n"
+      "mesh = { shape = \"rectangle\", origin = [0, 0, 0], a = [10, 0, 0], b = [0, 1, 0], divisions = [32, 4] }\n"
+      "material = { model = \"saint-venant-kirchhoff\", young = 1.2e6, poisson = 0 }\n";
+  const Case c = load_text(strip + "[structure]\nanalysis = \"modes\"\nmodes = 3\n");
+  EXPECT_EQ(c.structure.analysis, Analysis::Modes);
+  EXPECT_EQ(c.structure.modes, 3);
+  EXPECT_EQ(load_text(written(c)), c);
+  const Case loaded = load_text(strip + "[structure]\nanalysis = \"modes\"\npreload = true\nsteps = 8\n");
+  EXPECT_TRUE(loaded.structure.preload);
+  EXPECT_EQ(loaded.structure.modes, 10);
+  EXPECT_EQ(loaded.structure.steps, 8);
+  EXPECT_EQ(load_text(written(loaded)), loaded);
+}
+
 TEST(AShellAlone, NeedsNoFluidNoGridAndNoBoundary)
 {
   const Case c = load_text(
