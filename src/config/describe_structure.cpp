@@ -52,6 +52,9 @@ void describe(Schema& s, ShellOptions& shell)
   s.key("mass", shell.mass,
         {.doc = "Mass matrix: `consistent` with the element, or `lumped`, a third of each triangle's at each corner: "
                 "less accurate."});
+  s.key("membrane", shell.membrane,
+        {.doc = "How the strain in the surface is found: `cst`, constant in a triangle, or `smoothed`, averaged over "
+                "pairs of triangles, which is far better where the surface bends in its own plane."});
   s.table("damping", shell.damping, {.doc = "Rayleigh damping."});
   s.key("gravity", shell.gravity, {.doc = "Acceleration of gravity acting on the shell.", .unit = "m/s^2"});
   s.list("support", shell.supports, {.doc = "Vertices that are held; edges without support are free."});

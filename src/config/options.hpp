@@ -291,6 +291,7 @@ struct LoadOptions {
 };
 
 enum class BendingElement { Qavg, Patch4, Hinge };
+enum class MembraneElement { Cst, Smoothed };
 
 enum class MassMatrix { Consistent, Lumped };
 
@@ -304,6 +305,7 @@ struct ShellOptions {
   MaterialOptions material;
   BendingElement bending = BendingElement::Qavg;
   MassMatrix mass = MassMatrix::Consistent;
+  MembraneElement membrane = MembraneElement::Cst;
   DampingOptions damping;
   Vec3 gravity = Vec3::Zero();
   std::vector<SupportOptions> supports;

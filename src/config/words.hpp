@@ -71,6 +71,11 @@ inline Words<BendingElement> words(BendingElement)
   return {{{BendingElement::Qavg, "qavg"}, {BendingElement::Patch4, "patch4"}, {BendingElement::Hinge, "hinge"}}};
 }
 
+inline Words<MembraneElement> words(MembraneElement)
+{
+  return {{{MembraneElement::Cst, "cst"}, {MembraneElement::Smoothed, "smoothed"}}};
+}
+
 inline Words<SupportType> words(SupportType)
 {
   return {{{SupportType::Clamped, "clamped"},

@@ -248,8 +248,9 @@ class Builder {
   {
     const Patch& p = patches_[t];
     std::vector<StencilEntry> stencil;
-    for (int i = 0; i < 3; ++i)
-      stencil.push_back({p.vertex[i], -1, Vec3::Zero()});
+    for (int i = 0; i < 6; ++i)
+      if (p.present[i])
+        add(p.vertex[i], p.image[i], Vec3::Zero(), nullptr, stencil);
     for (int k = 0; k < 3; ++k) {
       const Vec3 weight = 2 / p.height[k] * dyad(p.m[k]);
       if (!p.present[3 + k]) {

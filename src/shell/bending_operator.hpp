@@ -33,7 +33,8 @@ struct StencilEntry {
   Vec3 H;     ///< weights in (x_,11, x_,22, 2 x_,12) [1/L^2]
 };
 
-/// kappa_V = n . sum_i H_V^i y_i for every triangle; the first three entries are its corners.
+/// kappa_V = n . sum_i H_V^i y_i for every triangle; the first three entries are its corners, then come the
+/// apices of its patch.
 struct BendingOperator {
   Images images;
   std::vector<std::vector<StencilEntry>> stencils;

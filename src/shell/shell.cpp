@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.hpp"
+#include "shell/element_response.hpp"
 #include "shell/fibres.hpp"
 #include "surface/validation.hpp"
 
@@ -67,7 +68,7 @@ void Shell::append(Piece piece)
                      piece.reference.n_triangles()});
   sections_.push_back(
       make_section(piece.properties.material, piece.properties.thickness, piece.properties.thickness_points));
-  append_elements(piece, bending, first_vertex);
+  append_elements(piece, topology, bending, first_vertex);
   append_mirrors(piece, supports, first_vertex);
   held_.append(supports.held);
   springs_.append(supports.springs, first_vertex);
@@ -79,7 +80,8 @@ void Shell::append(Piece piece)
   name_ += name_.empty() ? piece.name : ", " + piece.name;
 }
 
-void Shell::append_elements(const Piece& piece, const BendingOperator& bending, int first_vertex)
+void Shell::append_elements(const Piece& piece, const surface::Topology& topology, const BendingOperator& bending,
+                            int first_vertex)
 {
   const std::vector<Fibre> fibres = fibres_in_triangles(piece.reference, piece.fibres, piece.name);
   const int first_image = static_cast<int>(images_.size());
@@ -107,6 +109,10 @@ void Shell::append_elements(const Piece& piece, const BendingOperator& bending, 
     e.gradient = area_coordinate_gradients(X[corner[0]], X[corner[1]], X[corner[2]]);
     e.area = surface::area(piece.reference, t);
     e.fibre = fibres[t];
+    if (piece.properties.membrane == MembraneKind::Smoothed) {
+      e.smoothed = static_cast<int>(smoothed_.size());
+      smoothed_.push_back(smoothed_membrane(piece.reference, topology, t, e, first_vertex));
+    }
     elements_.push_back(e);
   }
   if (bending.worst_conic > worst_conic_) {
@@ -223,6 +229,12 @@ void Shell::make_mass()
       mass_slot_.push_back(pattern_->slot(row, static_cast<int>(entry.col())));
 }
 
+/// Null for the constant strain.
+const SmoothedMembrane* Shell::membrane_of(const Element& e) const
+{
+  return e.smoothed < 0 ? nullptr : &smoothed_[e.smoothed];
+}
+
 NodePositions Shell::gather(const Element& e, const Eigen::VectorXd& x, const Images& images) const
 {
   const Vec3 origin = x.segment<3>(3 * e.vertex[0]);
@@ -276,8 +288,7 @@ double Shell::elastic_energy(const Eigen::VectorXd& x, const Images& images) con
   double sum = springs_.energy(reference_positions_, x);
   for_each_element_in_order([&](const auto& section, int index) {
     const Element& e = elements_[index];
-    const ElementKinematics k = kinematics(e, gather(e, x, images));
-    sum += e.area * section.energy(k.E_membrane, k.E_bending, e.fibre);
+    sum += element_energy(section, e, membrane_of(e), gather(e, x, images));
   });
   return sum;
 }
@@ -287,8 +298,7 @@ Eigen::VectorXd Shell::internal_force(const Eigen::VectorXd& x, const Images& im
   Eigen::VectorXd f = Eigen::VectorXd::Zero(x.size());
   for_each_element([&](const auto& section, int index) {
     const Element& e = elements_[index];
-    const ElementKinematics k = kinematics(e, gather(e, x, images));
-    const NodeForces nodal = nodal_forces(e, k, section.resultants(k.E_membrane, k.E_bending, e.fibre));
+    const NodeForces nodal = element_force(section, e, membrane_of(e), gather(e, x, images));
     for (int i = 0; i < e.n_nodes; ++i) {
       if (e.image[i] < 0)
         f.segment<3>(3 * e.vertex[i]) += nodal.col(i);
@@ -310,8 +320,7 @@ double Shell::image_work(const Eigen::VectorXd& x_0, const Images& images_0, con
     if (!e.has_images)
       return;
     const auto forces = [&](const Eigen::VectorXd& x, const Images& images) {
-      const ElementKinematics k = kinematics(e, gather(e, x, images));
-      return nodal_forces(e, k, section.resultants(k.E_membrane, k.E_bending, e.fibre));
+      return element_force(section, e, membrane_of(e), gather(e, x, images));
     };
     const NodeForces mean = 0.5 * (forces(x_0, images_0) + forces(x_1, images_1));
     for (int i = 0; i < e.n_nodes; ++i)
@@ -343,11 +352,7 @@ void Shell::add_tangent(const Eigen::VectorXd& x, const Images& images, BlockMat
 {
   for_each_element([&](const auto& section, int index) {
     const Element& e = elements_[index];
-    const ElementKinematics k = kinematics(e, gather(e, x, images));
-    const SectionResponse response = section.response(k.E_membrane, k.E_bending, e.fibre);
-    ElementTangent tangent = material_tangent(e, k, response.stiffness, section.couples);
-    add_geometric_tangent(e, k, response.resultants, tangent);
-    scatter(index, tangent, images, 1, K);
+    scatter(index, element_tangent(section, e, membrane_of(e), gather(e, x, images)), images, 1, K);
   });
   springs_.add_stiffness(x, K);
 }
@@ -367,9 +372,7 @@ void Shell::add_material_stiffness(const Eigen::VectorXd& x, const Images& image
     const double factor = factor_of_piece(piece_of_vertex(e.vertex[0]).properties);
     if (factor == 0)
       return;
-    const ElementKinematics k = kinematics(e, gather(e, x, images));
-    scatter(index, material_tangent(e, k, section.stiffness(k.E_membrane, k.E_bending, e.fibre), section.couples),
-            images, factor, K);
+    scatter(index, element_stiffness(section, e, membrane_of(e), gather(e, x, images)), images, factor, K);
   });
 }
 

@@ -12,6 +12,7 @@
 #include "shell/bending_operator.hpp"
 #include "shell/block_matrix.hpp"
 #include "shell/element.hpp"
+#include "shell/membrane.hpp"
 #include "shell/properties.hpp"
 #include "shell/section.hpp"
 #include "shell/support.hpp"
@@ -115,7 +116,8 @@ class Shell {
   };
 
   void append(Piece piece);
-  void append_elements(const Piece& piece, const BendingOperator& bending, int first_vertex);
+  void append_elements(const Piece& piece, const surface::Topology& topology, const BendingOperator& bending,
+                       int first_vertex);
   /// A mirror at a boundary edge between the vertices a and b.
   struct Mirror {
     Vec3 normal;  ///< in the reference
@@ -123,6 +125,7 @@ class Shell {
     int motion;  ///< number of the motion, or -1
   };
 
+  const SmoothedMembrane* membrane_of(const Element& element) const;
   NodePositions gather(const Element& element, const Eigen::VectorXd& x, const Images& images) const;
   template <class Body>
   void for_each_element(Body body) const;
@@ -151,6 +154,7 @@ class Shell {
   std::vector<Mirror> mirrors_;
   Images images_;  ///< of the reference
   std::vector<Element> elements_;
+  std::vector<SmoothedMembrane> smoothed_;  ///< of the elements that name one
   std::shared_ptr<const BlockPattern> pattern_;
   std::vector<std::array<int, max_nodes * max_nodes>> slots_;  ///< of each element's blocks in the pattern
   std::vector<std::vector<ElementRun>> colours_;               ///< runs of one colour share no vertex

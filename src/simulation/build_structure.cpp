@@ -50,6 +50,8 @@ shell::Properties properties_of(const config::ShellOptions& options)
           .thickness_points = options.material.thickness_points.value_or(0),
           .bending = bending_of(options.bending),
           .lumped_mass = options.mass == config::MassMatrix::Lumped,
+          .membrane = options.membrane == config::MembraneElement::Smoothed ? shell::MembraneKind::Smoothed
+                                                                            : shell::MembraneKind::ConstantStrain,
           .damping_mass = options.damping.mass,
           .damping_stiffness = options.damping.stiffness,
           .gravity = options.gravity};

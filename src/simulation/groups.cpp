@@ -147,6 +147,19 @@ void describe_mesh(const SheetRange& sheet, std::vector<std::string>& lines)
     lines.push_back(fmt::format("{}: sets {}", owner, fmt::join(names, ", ")));
 }
 
+/// Triangles that have no quadratic of their own (docs/numerics/shell.md).
+void describe_patches(const shell::Shell& shell, std::vector<std::string>& lines)
+{
+  if (shell.n_hinge_patches() == 0)
+    return;
+  const Vec3 at = surface::centroid(shell.reference(), shell.worst_conic_triangle());
+  lines.push_back(fmt::format(
+      "WARNING: shell '{}': {} of {} triangles lie on a conic with their neighbours, whose slopes they take "
+      "(worst q = {:.1e}, limit 50, at ({:.4g}, {:.4g}, {:.4g})); move or remove the vertices there",
+      shell.name(), shell.n_hinge_patches(), shell.reference().n_triangles(), shell.worst_conic(), at.x(), at.y(),
+      at.z()));
+}
+
 }  // namespace
 
 std::vector<std::string> describe_groups(const config::Case& options, const Structure& structure)
@@ -158,6 +171,8 @@ std::vector<std::string> describe_groups(const config::Case& options, const Stru
     describe_shell(options, shell, sheet_length(structure), lines);
   for (const SheetRange& sheet : structure.sheets())
     describe_mesh(sheet, lines);
+  if (structure.shells().shell)
+    describe_patches(*structure.shells().shell, lines);
   return lines;
 }
 

@@ -420,6 +420,8 @@ void Recorder::finish(Ending ending, const std::string& reason)
     summary["halved_steps"] = halvings_;
     summary["mean_newton_iterations"] = double(simulation_.structure().newton_iterations()) / steps;
     summary["folds_above_45_degrees"] = simulation_.structure().sharp_folds();
+    summary["triangles_on_a_conic"] = simulation_.structure().shells().shell->n_hinge_patches();
+    summary["worst_conic"] = simulation_.structure().shells().shell->worst_conic();
   }
   if (simulation_.structure().contact() != nullptr)
     report_contact(summary);

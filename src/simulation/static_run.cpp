@@ -143,9 +143,14 @@ void run_static(const output::RunFolder& folder, const std::shared_ptr<spdlog::l
       const std::string& name = loaded.shell->name();
       log->info("open in ParaView: {}", folder.file("shell-" + name + ".pvd").string());
       StaticRecorder recorder(folder, options, *loaded.shell);
+      summary["shells"][name] = {{"triangles_on_a_conic", loaded.shell->n_hinge_patches()},
+                                 {"worst_conic", loaded.shell->worst_conic()}};
+      long sharp_folds = 0;
       analyse(loaded, options.structure, [&](const shell::StaticStep& step) {
         log->info("shell '{}': {}", name, told(step));
         recorder.record(step, summary);
+        sharp_folds += step.folds.n_sharp;
+        summary["shells"][name]["folds_above_45_degrees"] = sharp_folds;
         const bool asked = folder.stop_requested() || interrupted();
         if (asked && step.load_factor < 1.0)
           throw Stopped();

@@ -54,6 +54,7 @@ TEST(ACaseFile, SetsShellsAndBodies)
   EXPECT_EQ(flag.placement.translate, Vec3(0.25, 0.0, 0.0));
   EXPECT_EQ(flag.material, (MaterialOptions{MaterialModel::SaintVenantKirchhoff, 1e6, 0.4}));
   EXPECT_EQ(flag.bending, BendingElement::Patch4);
+  EXPECT_EQ(flag.membrane, MembraneElement::Smoothed);
   EXPECT_EQ(flag.damping, (DampingOptions{0.1, 1e-3}));
   EXPECT_EQ(flag.gravity, Vec3(0.0, -9.81, 0.0));
   EXPECT_EQ(flag.supports[0].type, SupportType::Clamped);
@@ -69,6 +70,7 @@ TEST(ACaseFile, SetsShellsAndBodies)
   EXPECT_EQ(flag.loads[1].pressure->evaluate(Vec3::Zero(), 1.0), 2.0);
   EXPECT_EQ(flag.loads[1].where.plane->normal, Vec3(0.0, 1.0, 0.0));
   EXPECT_EQ(c.shells[1].bending, BendingElement::Qavg);
+  EXPECT_EQ(c.shells[1].membrane, MembraneElement::Cst);
   EXPECT_EQ(flag.loads[3].edge_force->evaluate(Vec3(0, 0, 3), 0.0), Vec3(0.0, 3.0, 0.0));
   EXPECT_EQ(flag.loads[4].edge_moment->evaluate(Vec3::Zero(), 2.0), 4.0);
   EXPECT_EQ(c.shells[1].mesh.file, data_folder / "leaflet.stl");

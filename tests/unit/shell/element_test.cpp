@@ -14,15 +14,40 @@ using luff::test::curved_sheet;
 using luff::test::random_vector;
 using luff::test::vertices_where;
 
-const Properties soft{.thickness = 0.1, .density = 1, .material = SaintVenantKirchhoff{1e3, 0.3}};
+/// A section, a bending operator and a membrane strain.
+struct Make {
+  const char* name;
+  Properties properties;
+};
+
+Properties soft(const Material& material, BendingKind bending, MembraneKind membrane)
+{
+  return {.thickness = 0.1, .density = 1, .material = material, .bending = bending, .membrane = membrane};
+}
+
+const SaintVenantKirchhoff linear{1e3, 0.3};
+const NeoHookean rubber{400};
+const Make makes[] = {
+    {"AveragedQuadratics", soft(linear, BendingKind::AveragedQuadratics, MembraneKind::ConstantStrain)},
+    {"PatchQuadratic", soft(linear, BendingKind::PatchQuadratic, MembraneKind::ConstantStrain)},
+    {"Hinge", soft(linear, BendingKind::Hinge, MembraneKind::ConstantStrain)},
+    {"Smoothed", soft(linear, BendingKind::AveragedQuadratics, MembraneKind::Smoothed)},
+    {"SmoothedPatchQuadratic", soft(linear, BendingKind::PatchQuadratic, MembraneKind::Smoothed)},
+    {"NeoHookean", soft(rubber, BendingKind::AveragedQuadratics, MembraneKind::ConstantStrain)},
+    {"SmoothedNeoHookean", soft(rubber, BendingKind::AveragedQuadratics, MembraneKind::Smoothed)},
+};
+
+class ShellElement : public testing::TestWithParam<Make> {};
+INSTANTIATE_TEST_SUITE_P(OfAnyMake, ShellElement, testing::ValuesIn(makes),
+                         [](const auto& test) { return test.param.name; });
 
 /// Clamped at x = 0, symmetric at y = 0, hinged along part of x = max, free elsewhere: every kind of edge, and corners
 /// where two of them meet.
-Shell shell_with_every_edge()
+Shell shell_with_every_edge(const Properties& properties)
 {
   const surface::TriangleMesh mesh = curved_sheet();
   const double end = surface::bounding_box(mesh.vertices).high.x();
-  return Shell(mesh, soft,
+  return Shell(mesh, properties,
                {{.kind = SupportKind::Clamped, .vertices = vertices_where(mesh, [](auto& X) { return X.x() == 0; })},
                 {.kind = SupportKind::Symmetry,
                  .vertices = vertices_where(mesh, [](auto& X) { return X.y() == 0; }),
@@ -36,16 +61,16 @@ Eigen::VectorXd deformed(const Shell& shell)
   return shell.reference_positions() + 0.05 * random_vector(3 * shell.n_vertices(), 1);
 }
 
-TEST(ShellElement, ReferenceIsFreeOfForce)
+TEST_P(ShellElement, ReferenceIsFreeOfForce)
 {
-  const Shell shell = shell_with_every_edge();
+  const Shell shell = shell_with_every_edge(GetParam().properties);
   const Eigen::VectorXd scale = shell.internal_force(deformed(shell));
   EXPECT_LT(shell.internal_force(shell.reference_positions()).norm(), 1e-13 * scale.norm());
 }
 
-TEST(ShellElement, ForceIsTheGradientOfTheEnergy)
+TEST_P(ShellElement, ForceIsTheGradientOfTheEnergy)
 {
-  const Shell shell = shell_with_every_edge();
+  const Shell shell = shell_with_every_edge(GetParam().properties);
   const Eigen::VectorXd x = deformed(shell), d = random_vector(x.size(), 2);
   const double step = 1e-5;
   const double slope = (shell.elastic_energy(x + step * d) - shell.elastic_energy(x - step * d)) / (2 * step);
@@ -54,9 +79,9 @@ TEST(ShellElement, ForceIsTheGradientOfTheEnergy)
   EXPECT_LT(error, 1e-6);
 }
 
-TEST(ShellElement, TangentIsTheGradientOfTheForce)
+TEST_P(ShellElement, TangentIsTheGradientOfTheForce)
 {
-  const Shell shell = shell_with_every_edge();
+  const Shell shell = shell_with_every_edge(GetParam().properties);
   const Eigen::VectorXd x = deformed(shell), d = random_vector(x.size(), 2);
   BlockMatrix K(shell.pattern());
   shell.add_tangent(x, K);
@@ -66,9 +91,9 @@ TEST(ShellElement, TangentIsTheGradientOfTheForce)
   std::printf("  tangent against differences: %.1e\n", (slope - K * d).norm() / slope.norm());
 }
 
-TEST(ShellElement, TangentIsSymmetric)
+TEST_P(ShellElement, TangentIsSymmetric)
 {
-  const Shell shell = shell_with_every_edge();
+  const Shell shell = shell_with_every_edge(GetParam().properties);
   BlockMatrix K(shell.pattern());
   shell.add_tangent(deformed(shell), K);
   const Eigen::MatrixXd full = K.dense();
@@ -76,9 +101,9 @@ TEST(ShellElement, TangentIsSymmetric)
   std::printf("  asymmetry: %.1e\n", (full - full.transpose()).norm() / full.norm());
 }
 
-TEST(ShellElement, EnergyAndForceTurnWithTheShell)
+TEST_P(ShellElement, EnergyAndForceTurnWithTheShell)
 {
-  const Shell shell(curved_sheet(), soft, {});
+  const Shell shell(curved_sheet(), GetParam().properties, {});
   const Eigen::VectorXd x = deformed(shell);
   const Eigen::AngleAxisd R(1.234, Vec3(1, 2, -0.5).normalized());
   const auto moved = [&](const Eigen::VectorXd& y) {
@@ -103,9 +128,9 @@ TEST(ShellElement, EnergyAndForceTurnWithTheShell)
   EXPECT_LT(shell.elastic_energy(moved(shell.reference_positions())), 1e-24 * shell.elastic_energy(x));
 }
 
-TEST(ShellElement, FreeCurvedShellHasExactlySixZeroModes)
+TEST_P(ShellElement, FreeCurvedShellHasExactlySixZeroModes)
 {
-  const Shell shell(curved_sheet(), soft, {});
+  const Shell shell(curved_sheet(), GetParam().properties, {});
   BlockMatrix K(shell.pattern());
   shell.add_tangent(shell.reference_positions(), K);
   const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K.dense()).eigenvalues();
@@ -114,9 +139,9 @@ TEST(ShellElement, FreeCurvedShellHasExactlySixZeroModes)
   EXPECT_GT(eigenvalues[6], 1e-6 * largest);
 }
 
-TEST(ShellElement, MaterialStiffnessIsSemiDefiniteAndIgnoresRigidMotions)
+TEST_P(ShellElement, MaterialStiffnessIsSemiDefiniteAndIgnoresRigidMotions)
 {
-  const Shell shell(curved_sheet(), soft, {});
+  const Shell shell(curved_sheet(), GetParam().properties, {});
   const Eigen::VectorXd x = deformed(shell);
   BlockMatrix K(shell.pattern());
   shell.add_material_stiffness(x, K);
