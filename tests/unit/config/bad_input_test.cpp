@@ -226,7 +226,7 @@ const BadInput rules[] = {
     {"AnAnalysisOfAFlowIsStatic", "[time]\nend = 2.0\nstep = 0.01", "[structure]\nanalysis = \"static\"",
      "case.toml:3: structure.analysis = \"static\" must be \"dynamic\" with a [fluid]"},
     {"NoModesAreAsked", "[output]", "[structure]\nanalysis = \"modes\"\nmodes = 0\n[output]",
-     "structure.modes = 0 must be an integer >= 1"},
+     "case.toml:38: structure.modes = 0 must be an integer >= 1"},
     {"AStaticAnalysisTakesTime", "[output]", "[structure]\nanalysis = \"static\"\n[output]",
      "case.toml:2: time goes only with `structure.analysis = \"dynamic\"`"},
     {"AConstantBelongsToAnotherMaterial", "poisson = 0.4", "poisson = 0.4, c10 = 100",
