@@ -40,20 +40,6 @@ Load renumbered(Load load, int first_vertex, int first_triangle)
   return load;
 }
 
-std::vector<int> triangles_of(const surface::TriangleMesh& mesh, std::span<const int> vertices)
-{
-  std::vector<char> selected(mesh.vertices.size(), 0);
-  for (const int v : vertices)
-    selected[v] = 1;
-  std::vector<int> result;
-  for (int t = 0; t < mesh.n_triangles(); ++t) {
-    const auto& corner = mesh.triangles[t];
-    if (selected[corner[0]] && selected[corner[1]] && selected[corner[2]])
-      result.push_back(t);
-  }
-  return result;
-}
-
 Loads::Loads(const Shell& shell, std::vector<Load> loads) : shell_(shell), loads_(std::move(loads))
 {
   for (Load& load : loads_) {

@@ -61,9 +61,6 @@ using Load = std::variant<PointForce, Traction, Pressure, EdgeForce, EdgeMoment>
 /// The load with its vertices and triangles counted from those of a piece: both numbers are added.
 Load renumbered(Load load, int first_vertex, int first_triangle);
 
-/// Triangles with all corners among the vertices.
-std::vector<int> triangles_of(const surface::TriangleMesh& mesh, std::span<const int> vertices);
-
 /// The loads of one instant: what doesn't depend on the configuration is evaluated once.
 class LoadsAtTime {
  public:

@@ -77,6 +77,26 @@ Vec3 in_plane_normal(const TriangleMesh& mesh, TriangleEdge side)
   return along.cross(surface::unit_normal(mesh, side.triangle)).normalized();
 }
 
+bool is_flat(const TriangleMesh& mesh)
+{
+  const Vec3 first = surface::unit_normal(mesh, 0);
+  for (int t = 1; t < mesh.n_triangles(); ++t)
+    if (surface::unit_normal(mesh, t).cross(first).norm() > in_plane)
+      return false;
+  return true;
+}
+
+/// A straight edge doesn't tell the plane of a curved shell: its triangles meet it only nearly at a right angle. The
+/// axis that is near is meant.
+Vec3 axis_near(const Context& c, const Vec3& normal)
+{
+  constexpr double slack = 0.05;
+  int axis = 0;
+  if (normal.cwiseAbs().maxCoeff(&axis) < (1 - slack) * normal.norm())
+    fail_input("{}: a straight edge of a curved shell doesn't tell its plane; give its 'where' as a plane", c.name());
+  return Vec3::Unit(axis);
+}
+
 /// Normal of the plane that the vertices of a symmetry are in: the mean over its edges, made normal to what the
 /// vertices span, so that edges of a curved shell, whose triangles meet the plane only nearly at a right angle, do as
 /// well.
@@ -92,10 +112,13 @@ Vec3 fitted_normal(const Context& c, const std::vector<TriangleEdge>& edges)
     from_first.col(i) = c.mesh.vertices[c.support.vertices[i]] - c.mesh.vertices[c.support.vertices.front()];
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(from_first, Eigen::ComputeFullU);
   const auto& span = svd.singularValues();
+  int dimensions = 0;
   for (int i = 0; i < std::min<int>(2, static_cast<int>(span.size())); ++i)
-    if (span[i] > in_plane * std::sqrt(static_cast<double>(from_first.cols())) * size_of(c))
+    if (span[i] > in_plane * std::sqrt(static_cast<double>(from_first.cols())) * size_of(c)) {
       mean -= svd.matrixU().col(i).dot(mean) * svd.matrixU().col(i);
-  return mean;
+      ++dimensions;
+    }
+  return dimensions == 2 || is_flat(c.mesh) ? mean : axis_near(c, mean);
 }
 
 /// Normal of the symmetry plane, as given or as fitted; exactly along an axis where it is nearly so.

@@ -154,6 +154,20 @@ TEST(Symmetry, PlanesMayHaveAnyDirection)
   EXPECT_LT((turned - straight).lpNorm<Eigen::Infinity>(), 1e-9);
 }
 
+// Triangles of a coarse cylinder meet the planes through its straight edges at an angle.
+TEST(Symmetry, OfAStraightEdgeOfACurvedShellIsNormalToTheAxisThatIsNear)
+{
+  const surface::TriangleMesh quarter = surface::cylinder({.angle = {0, 90}, .divisions = {3, 2}});
+  const auto energy = [&](std::optional<Vec3> normal) {
+    const Shell shell(quarter, soft,
+                      {{.kind = SupportKind::Symmetry,
+                        .vertices = test::vertices_where(quarter, [](auto& X) { return std::abs(X.x()) < 1e-12; }),
+                        .normal = normal}});
+    return shell.elastic_energy(shell.reference_positions() + 1e-3 * test::random_vector(3 * shell.n_vertices(), 5));
+  };
+  EXPECT_EQ(energy({}), energy(Vec3::UnitX()));
+}
+
 TEST(Symmetry, ObliquePlanesLeaveTheFrequenciesAsTheyAre)
 {
   const auto frequencies = [](const Mat3& R, int n) {
