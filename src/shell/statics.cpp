@@ -68,7 +68,7 @@ class LoadPath {
   {
     Eigen::VectorXd x = now_.positions;
     try {
-      problem_.place_supports(factor, x);
+      move_supports(factor, x);
       equilibrate(x, factor);
     } catch (const RunError& error) {
       if (length_.halve())
@@ -76,13 +76,31 @@ class LoadPath {
       if (options_.stabilisation == Stabilisation::None)
         fail(factor, error);
       x = now_.positions;
-      problem_.place_supports(factor, x);
+      move_supports(factor, x);
       snap(x, factor);
     }
     now_.positions = x;
     now_.load_factor = factor;
     limit_met_ = false;
     length_.succeeded();
+  }
+
+  /// Moves what is held by d, and the rest as the linear shell would follow, K u = -K d: a clamp that moved alone would
+  /// leave the triangles at it stretched beyond what Newton's method returns from.
+  void move_supports(double factor, Eigen::VectorXd& x)
+  {
+    const Shell& shell = problem_.shell();
+    if (!shell.supports().moves())
+      return;
+    const Eigen::VectorXd before = x;
+    problem_.place_supports(factor, x);
+    tangent_.K.set_zero();
+    problem_.add_tangent(before, now_.load_factor, tangent_.K);
+    Eigen::VectorXd r = -(tangent_.K * (x - before));
+    shell.clear_held(r);
+    shell.supports().decouple(tangent_.K);
+    tangent_.solver->factorise(tangent_.K);
+    x += tangent_.solver->solve(r);
   }
 
   /// Newton's method. An equilibrium off the path counts as none; with damping to hand, an unstable one does too.

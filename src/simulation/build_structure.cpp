@@ -223,7 +223,8 @@ Shells build_shells(const config::Case& options, const std::vector<RigidSheet>& 
   shells.marks = std::move(built.marks);
   shell::DynamicsOptions dynamics;
   dynamics.scheme = scheme_of(options.structure);
-  dynamics.first_step = options.time.step;
+  // An analysis without time takes no step; any length does for the rates that it doesn't use.
+  dynamics.first_step = options.structure.analysis == config::Analysis::Dynamic ? options.time.step : 1.0;
   dynamics.fold_limit = options.structure.fold_limit;
   dynamics.linear_solver = build_solver(options.structure.solver);
   if (options.contact)
