@@ -103,7 +103,7 @@ const BadCase sheets[] = {
     {"ALoadSelectsNoTriangle",
      "[output]\n",
      "[[shell.load]]\nwhere = { point = [0.4, 0.1, 0] }\npressure = 1.0\n[output]\n",
-     {"case.toml:30: shell 'flag', load 1", "no triangle", "give a force"}},
+     {"case.toml:30: shell 'flag', load 1", "no triangle", "load vertices or edges"}},
     {"TheMeshFileIsMissing",
      "shape = \"rectangle\", origin = [0, 0.01, -0.3], a = [0.8, 0, 0], b = [0, 0, 0.6], divisions = [6, 4]",
      "file = \"flag.obj\"",
@@ -134,7 +134,7 @@ TEST_P(BadMeshesAreRefused, WithTheLineOfTheCaseTheFileTheTriangleAndItsPlace)
   folder.write("case.toml", changed(small_flag,
                                     "shape = \"rectangle\", origin = [0, 0.01, -0.3], a = [0.8, 0, 0], b = [0, 0, "
                                     "0.6], divisions = [6, 4]",
-                                    "file = \"flag.obj\""));
+                                    "file = \"flag.obj\", repair = false"));
   std::vector<std::string> words{"case.toml:22: ", "flag.obj"};
   words.insert(words.end(), GetParam().words.begin(), GetParam().words.end());
   expect_refusal(folder, words);
@@ -148,7 +148,7 @@ const BadMesh meshes[] = {
     {"ATriangleIsDoubled", SQUARE "f 1 2 3\nf 1 3 4\nf 3 1 2\n", {"triangle"}},
     {"ATriangleHasNoArea", SQUARE "v 0.4 0.01 -0.3\nf 1 2 3\nf 1 3 4\nf 1 5 2\n", {"triangle", "area"}},
     {"ThreeTrianglesShareAnEdge", SQUARE "v 0.4 0.2 0\nf 1 2 3\nf 1 3 4\nf 1 3 5\n", {"edge"}},
-    {"ACornerIsMissing", SQUARE "f 1 2 9\n", {"vertex 8"}},
+    {"ACornerIsMissing", SQUARE "f 1 2 9\n", {"flag.obj:5", "'9' must be the number of one of the 4 vertices"}},
     {"TheFileIsEmpty", "", {}},
 };
 

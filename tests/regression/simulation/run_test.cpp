@@ -279,8 +279,9 @@ TEST(ARun, OfAStaticAnalysisTakesAShellAlongWithItsClamp)
 TEST(ARun, OfAShakenStripCountsTheWorkOfItsSupport)
 {
   const WorkFolder folder;
-  run_well(folder, changed(small_strip, "type = \"clamped\"\n",
-                           "type = \"clamped\"\nmotion = { translation = [0, 0, \"0.02*(1 - cos(6*t))\"] }\n"),
+  run_well(folder,
+           changed(small_strip, "type = \"clamped\"\n",
+                   "type = \"clamped\"\nmotion = { translation = [0, 0, \"0.02*(1 - cos(6*t))\"] }\n"),
            "out", {"--set", "structure.scheme=midpoint", "--set", "time.step=0.01"});
   const Table steps = read_table(folder.path() / "out/steps.csv");
   const double stored = steps.column("kinetic [energy]").back() + steps.column("elastic [energy]").back();
