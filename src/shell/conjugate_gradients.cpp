@@ -53,6 +53,8 @@ class IncompleteCholesky : public Preconditioner {
   void prepare(const BlockMatrix& A) override
   {
     const UpperTriangle& U = triangle_.pattern();
+    if (U.size() == 0)  // Eigen's factorisation of nothing is an assertion
+      return;
     // Upper columns of a symmetric matrix are its lower rows.
     const Eigen::Map<const Eigen::SparseMatrix<double>> upper(U.size(), U.size(),
                                                               static_cast<Eigen::Index>(U.row.size()), U.start.data(),
@@ -66,6 +68,8 @@ class IncompleteCholesky : public Preconditioner {
 
   Eigen::VectorXd apply(const Eigen::VectorXd& r) const override
   {
+    if (triangle_.pattern().size() == 0)
+      return Eigen::VectorXd::Zero(r.size());
     return unknowns_.expanded(factor_.solve(unknowns_.restricted(r)));
   }
 

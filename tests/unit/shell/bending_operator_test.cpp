@@ -72,7 +72,8 @@ void expect_sound(const Shell& shell)
     tilted.segment<3>(3 * v) = Eigen::AngleAxisd(1.0, Vec3::UnitY()) * shell.reference().vertices[v];
   EXPECT_LT(shell.elastic_energy(tilted), 1e-24 * shell.elastic_energy(moved));
   const Eigen::VectorXd omega = test::natural_frequencies(shell);
-  EXPECT_LT(omega[5], 1e-5 * omega[6]);
+  // Round-off of the eigenvalues is relative to the largest of them.
+  EXPECT_LT(omega[5], 1e-7 * omega[omega.size() - 1]);
 }
 
 // Six vertices of one patch on a circle leave its quadratic undetermined.
