@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <string>
 
 #include "core/error.hpp"
+#include "core/readable.hpp"
 #include "surface/gmsh_reader.hpp"
 #include "surface/obj_reader.hpp"
 #include "surface/ply_reader.hpp"
@@ -24,18 +24,6 @@ std::string ending(const std::filesystem::path& file)
   std::string text = file.extension().string();
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
-}
-
-void check_readable(const std::filesystem::path& file)
-{
-  if (!std::filesystem::exists(file))
-    fail_input("{}: there is no such file; paths are relative to the case file", file.string());
-  if (!std::filesystem::is_regular_file(file))
-    fail_input("{}: is not a file", file.string());
-  if (!std::ifstream(file).good())
-    fail_input("{}: may not be read; check its permissions", file.string());
-  if (std::filesystem::file_size(file) == 0)
-    fail_input("{}: is empty", file.string());
 }
 
 bool is_known(const std::string& kind)
@@ -64,7 +52,7 @@ MarkedMesh read_mesh(const std::filesystem::path& file, Repair repairing)
   const std::string kind = ending(file);
   if (!is_known(kind))
     fail_input("{}: meshes are read from {} files, not '{}'", file.string(), mesh_file_endings, kind);
-  check_readable(file);
+  require_readable(file);
   MarkedMesh marked = read_unchecked(file, kind);
   validate_numbers(marked.mesh, file.string());
   if (kind == ".stl")  // has separate corners, which is no fault of the file

@@ -8,10 +8,7 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
-#include <vtkLogger.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSTLReader.h>
@@ -22,72 +19,18 @@
 
 #include "core/error.hpp"
 #include "surface/validation.hpp"
+#include "vtk/reading.hpp"
 
 namespace luff::surface {
 
 namespace {
-
-/// Collects what VTK would print.
-class Transcript : public vtkOutputWindow {
- public:
-  static Transcript* New();
-  void DisplayText(const char* text) override { text_ += text; }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
-vtkStandardNewMacro(Transcript)
-
-    /// Puts a transcript in the place of VTK's output window and log for as long as it lives.
-    class Listening {
- public:
-  Listening() : before_(vtkOutputWindow::GetInstance()), verbosity_before_(vtkLogger::GetCurrentVerbosityCutoff())
-  {
-    vtkOutputWindow::SetInstance(transcript_);
-    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-  }
-  ~Listening()
-  {
-    vtkOutputWindow::SetInstance(before_);
-    vtkLogger::SetStderrVerbosity(verbosity_before_);
-  }
-  Listening(const Listening&) = delete;
-  Listening& operator=(const Listening&) = delete;
-
-  const std::string& heard() const { return transcript_->text(); }
-
- private:
-  vtkSmartPointer<vtkOutputWindow> before_;
-  vtkLogger::Verbosity verbosity_before_;
-  vtkNew<Transcript> transcript_;
-};
-
-/// One line of VTK's complaint, without its addresses.
-std::string complaint(const std::string& heard)
-{
-  std::string text = heard.substr(heard.rfind("): ") == std::string::npos ? 0 : heard.rfind("): ") + 3);
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  while (!text.empty() && text.back() == ' ')
-    text.pop_back();
-  return text;
-}
 
 using File = std::filesystem::path;
 
 template <class Reader>
 auto read(Reader& reader, const File& file, const std::string& kind)
 {
-  const Listening listening;
-  reader.SetFileName(file.c_str());
-  try {
-    reader.Update();
-  } catch (const std::exception& error) {  // of memory, where the file promises more than it holds
-    fail_input("{}: cannot be read as {}: {}; write the file again", file.string(), kind.substr(1), error.what());
-  }
-  if (!listening.heard().empty())
-    fail_input("{}: cannot be read as {}: {}; write the file again", file.string(), kind.substr(1),
-               complaint(listening.heard()));
+  vtk::read(reader, file, kind.substr(1), [](Reader& r) { r.Update(); });
   vtkSmartPointer data = reader.GetOutput();
   if (!data || data->GetNumberOfPoints() == 0)
     fail_input("{}: holds no surface that can be read as {}; is it another kind of file?", file.string(),
