@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "parallel/vector_field.hpp"
 
 namespace luff::fluid {
 
@@ -13,6 +14,12 @@ namespace {
 bool takes_velocity(SideKind kind)
 {
   return kind == SideKind::Velocity || kind == SideKind::Wall;
+}
+
+/// The part of u along a face of area vector S.
+Vec3 tangential(const Vec3& u, const Vec3& S)
+{
+  return u - S * (S.dot(u) / S.squaredNorm());
 }
 
 }  // namespace
@@ -61,6 +68,12 @@ void BoundaryConditions::for_each_side_cell(const Side& side, Visit visit) const
         visit(Index3{i, j, k}, n++);
 }
 
+Vec3 BoundaryConditions::area_vector(const Side& side, const Index3& c) const
+{
+  const auto [i, j, k] = side.face(c);
+  return grid_.area_vector(side.axis, i, j, k);
+}
+
 void BoundaryConditions::evaluate_at(double t)
 {
   const auto varies = [](const auto& ends) {
@@ -74,11 +87,10 @@ void BoundaryConditions::evaluate_at(double t)
     if (!takes_velocity(boundary(side).kind))
       continue;
     for_each_side_cell(side, [&](const Index3& c, std::size_t n) {
-      Vec3 x = grid_.centre(c[0], c[1], c[2]);
-      x[side.axis] = side.end == 0 ? grid_.face(side.axis, 0) : grid_.face(side.axis, grid_.cells()[side.axis]);
-      side.velocity[n] = boundary(side).velocity.value(x, t);
+      const auto [i, j, k] = side.face(c);
+      side.velocity[n] = boundary(side).velocity.value(grid_.face_centre(side.axis, i, j, k), t);
       if (boundary(side).kind == SideKind::Wall)
-        side.velocity[n][side.axis] = 0.0;
+        side.velocity[n] = tangential(side.velocity[n], area_vector(side, c));
       largest = std::max(largest, side.velocity[n].norm());
     });
   }
@@ -97,10 +109,11 @@ void BoundaryConditions::balance_fluxes()
   for (const Side& side : sides_)
     if (prescribes_flow(side))
       for_each_side_cell(side, [&](const Index3& c, std::size_t n) {
-        const double A = grid_.area(side.axis, c[0], c[1], c[2]);
-        net += A * side.outward() * side.velocity[n][side.axis];
-        gross += A * std::abs(side.velocity[n][side.axis]);
-        area += A;
+        const Vec3 S = area_vector(side, c);
+        const double flux = S.dot(side.velocity[n]);
+        net += side.outward() * flux;
+        gross += std::abs(flux);
+        area += S.norm();
       });
   net = grid_.ranks().sum(net);
   gross = grid_.ranks().sum(gross);
@@ -115,36 +128,55 @@ void BoundaryConditions::balance_fluxes()
     return;
   for (Side& side : sides_)
     if (prescribes_flow(side))
-      for (Vec3& u : side.velocity)
-        u[side.axis] -= side.outward() * net / area;
+      for_each_side_cell(side, [&](const Index3& c, std::size_t n) {
+        side.velocity[n] -= side.outward() * net / area * area_vector(side, c).normalized();
+      });
+}
+
+Vec3 BoundaryConditions::velocity_beyond(const Side& side, const Index3& c, const Vec3& inside, const Vec3& prescribed,
+                                         bool backflow) const
+{
+  switch (boundary(side).kind) {
+    case SideKind::Velocity:
+    case SideKind::Wall:
+      return 2.0 * prescribed - inside;
+    case SideKind::Outflow:
+      return backflow ? Vec3(Vec3::Zero()) : inside;
+    default:
+      return 2.0 * tangential(inside, area_vector(side, c)) - inside;
+  }
 }
 
 void BoundaryConditions::fill_velocity(const View3<double>& u, const View3<const double>& U) const
 {
-  for (const Side& side : sides_) {
-    const SideKind kind = boundary(side).kind;
+  for (const Side& side : sides_)
     for_each_side_cell(side, [&](const Index3& c, std::size_t n) {
-      const Index3 beyond = stepped(c, side.axis, side.end == 0 ? -1 : 1);
-      const Index3 face = stepped(c, side.axis, side.end);
-      const bool backflow = kind == SideKind::Outflow && side.outward() * U[side.axis](face) < 0.0;
-      for (int d = 0; d < 3; ++d) {
-        if (takes_velocity(kind))
-          u[d](beyond) = 2.0 * side.velocity[n][d] - u[d](c);
-        else if (kind == SideKind::Outflow)
-          u[d](beyond) = backflow ? 0.0 : u[d](c);
-        else
-          u[d](beyond) = d == side.axis ? -u[d](c) : u[d](c);
-      }
+      const bool backflow = side.outward() * U[side.axis](side.face(c)) < 0.0;
+      const Vec3 value = velocity_beyond(side, c, at(u, c), side.velocity[n], backflow);
+      for (int d = 0; d < 3; ++d)
+        u[d](side.beyond(c)) = value[d];
     });
-  }
+}
+
+void BoundaryConditions::extrapolate_edges(const View3<double>& u) const
+{
+  for (const Side& side : sides_)
+    for (const Side& other : sides_) {
+      if (other.axis <= side.axis)
+        continue;
+      for_each_cell_in_order(intersection(side.cells, other.cells), [&](int i, int j, int k) {
+        const Index3 c{i, j, k};
+        for (const View<double>& v : u)
+          v(other.beyond(side.beyond(c))) = v(side.beyond(c)) + v(other.beyond(c)) - v(c);
+      });
+    }
 }
 
 void BoundaryConditions::fill_pressure(const View<double>& p) const
 {
   for (const Side& side : sides_) {
     const double sign = boundary(side).kind == SideKind::Outflow ? -1.0 : 1.0;
-    for_each_side_cell(
-        side, [&](const Index3& c, std::size_t) { p(stepped(c, side.axis, side.end == 0 ? -1 : 1)) = sign * p(c); });
+    for_each_side_cell(side, [&](const Index3& c, std::size_t) { p(side.beyond(c)) = sign * p(c); });
   }
 }
 
@@ -154,25 +186,12 @@ void BoundaryConditions::set_fluxes(const View3<const double>& u_old, const View
   for (const Side& side : sides_) {
     const SideKind kind = boundary(side).kind;
     for_each_side_cell(side, [&](const Index3& c, std::size_t n) {
-      double u_n = 0.0;
+      Vec3 u = Vec3::Zero();
       if (kind == SideKind::Velocity)
-        u_n = side.velocity[n][side.axis];
+        u = side.velocity[n];
       else if (kind == SideKind::Outflow)
-        u_n = u_old[side.axis](c) + increment[side.axis](c);
-      U[side.axis](stepped(c, side.axis, side.end)) = grid_.area(side.axis, c[0], c[1], c[2]) * u_n;
-    });
-  }
-}
-
-void BoundaryConditions::subtract_outflow_gradient(const View<const double>& p, double k, const View3<double>& U) const
-{
-  for (const Side& side : sides_) {
-    if (boundary(side).kind != SideKind::Outflow)
-      continue;
-    for_each_side_cell(side, [&](const Index3& c, std::size_t) {
-      const double slope = -p(c) / (0.5 * grid_.width(side.axis, c[side.axis]));  // outwards, to p = 0 on the face
-      U[side.axis](stepped(c, side.axis, side.end)) -=
-          k * side.outward() * grid_.area(side.axis, c[0], c[1], c[2]) * slope;
+        u = at(u_old, c) + at(increment, c);
+      U[side.axis](side.face(c)) = area_vector(side, c).dot(u);
     });
   }
 }

@@ -2,11 +2,11 @@
 // Conditions on the six sides of the domain.
 //
 //   side       u in the halo cell (mirror of P)     U on the face         p in the halo cell   pressure system
-//   velocity   2 u_b - u_P                          A u_b . e             p_P                  Neumann
+//   velocity   2 u_b - u_P                          S . u_b               p_P                  Neumann
 //   wall       2 u_b - u_P  (u_b tangential)        0                     p_P                  Neumann
-//   slip       -u_P normal, +u_P tangential         0                     p_P                  Neumann
+//   slip       u_P mirrored at the face             0                     p_P                  Neumann
 //   symmetry   as slip                              0                     p_P                  Neumann
-//   outflow    u_P, or 0 where the flow comes back  A u_P . e, projected  -p_P (p = 0 at face) Dirichlet
+//   outflow    u_P, or 0 where the flow comes back  S . u_P, projected    -p_P (p = 0 at face) Dirichlet
 //   periodic   from the other side                  interior face         from the other side  -
 //
 // Outflow leaves the flux to the projection, which closes mass exactly with p = 0 on the face; where fluid flows back
@@ -59,12 +59,13 @@ class BoundaryConditions {
 
   /// Halo of the centre velocity beyond the domain's sides; U tells outflow from backflow.
   void fill_velocity(const View3<double>& u, const View3<const double>& U) const;
+  /// Where two sides meet, the halo goes on linearly from the three cells around: u = u_a + u_b - u_P.  The rest of it
+  /// must be filled before.
+  void extrapolate_edges(const View3<double>& u) const;
   /// Halo of the pressure beyond the domain's sides.
   void fill_pressure(const View<double>& p) const;
   /// U* on the domain's sides; on outflow from the velocity u_old + increment of the cells beside them.
   void set_fluxes(const View3<const double>& u_old, const View3<const double>& increment, const View3<double>& U) const;
-  /// U <- U - k A (p_N - p_P)/d on outflow sides, as the projection does.
-  void subtract_outflow_gradient(const View<const double>& p, double k, const View3<double>& U) const;
 
   /// Largest prescribed speed at the time of the last evaluation [L/T].
   [[nodiscard]] double largest_speed() const { return largest_speed_; }
@@ -76,9 +77,15 @@ class BoundaryConditions {
     IndexBox cells;              ///< owned cells beside the side
     std::vector<Vec3> velocity;  ///< prescribed, per cell of `cells`, i fastest
     [[nodiscard]] double outward() const { return end == 0 ? -1.0 : 1.0; }
+    /// The cell whose low face is the boundary face of a cell.
+    [[nodiscard]] Index3 face(const Index3& c) const { return stepped(c, axis, end); }
+    [[nodiscard]] Index3 beyond(const Index3& c) const { return stepped(c, axis, end == 0 ? -1 : 1); }
   };
   template <class Visit>
   void for_each_side_cell(const Side& side, Visit visit) const;
+  [[nodiscard]] Vec3 area_vector(const Side& side, const Index3& c) const;
+  [[nodiscard]] Vec3 velocity_beyond(const Side& side, const Index3& c, const Vec3& inside, const Vec3& prescribed,
+                                     bool backflow) const;
   [[nodiscard]] const SideBoundary& boundary(const Side& side) const { return boundaries_[side.axis][side.end]; }
   [[nodiscard]] bool prescribes_flow(const Side& side) const { return boundary(side).kind == SideKind::Velocity; }
   void balance_fluxes();

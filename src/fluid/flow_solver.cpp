@@ -36,6 +36,7 @@ FlowSolver::FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries b
       boundary_(grid, std::move(boundaries)),
       pressure_(std::move(pressure)),
       halo_(grid.ranks()),
+      diffusive_rate_(options_.viscosity * operators::diffusive_rate(grid)),
       links_(grid),
       state_{make_field3<double>(grid.owned()), make_field3<double>(grid.owned()), Field<double>(grid.owned()),
              Field<double>(grid.owned())},
@@ -54,9 +55,8 @@ void FlowSolver::start(const VectorFunction& velocity, double t_0)
   const IndexBox& owned = grid_.owned();
   for (int axis = 0; axis < 3; ++axis)
     for_each_cell_in_order(owned.faces(axis), [U = U_[axis].view(), this, axis, &velocity, t_0](int i, int j, int k) {
-      Vec3 x = grid_.centre(i, j, k);
-      x[axis] = grid_.face(axis, Index3{i, j, k}[axis]);
-      U(i, j, k) = grid_.area(axis, i, j, k) * velocity.value(x, t_0)[axis];
+      const Vec3 v = velocity.value(grid_.face_centre(axis, i, j, k), t_0);
+      U(i, j, k) = grid_.area_vector(axis, i, j, k).dot(v);
     });
   for_each_cell_in_order(owned, [u = views(u_), this, &velocity, t_0](int i, int j, int k) {
     const Vec3 v = velocity.value(grid_.centre(i, j, k), t_0);
@@ -152,8 +152,7 @@ void FlowSolver::find_cut_links(const immersed::SheetMotion& predicted, double s
 /// du <- du + dt (gamma N(u) + zeta N_old), in every cell; the wall terms of cut cells follow in bind_to_walls().
 void FlowSolver::advance_stage(int stage)
 {
-  halo_.exchange(views(u_));
-  boundary_.fill_velocity(views(u_), views(std::as_const(U_)));
+  fill_velocity_halo(views(u_), views(std::as_const(U_)));
   const operators::StageWeights weights{step_.dt * stage_gamma[stage], step_.dt * stage_zeta[stage]};
   // Cut cells are computed first, from the increments and rates that the sweep over all cells overwrites.
   replace_rates_of_cut_cells(stage, weights);
@@ -262,11 +261,9 @@ void FlowSolver::compute_fluxes(const StageTime& time)
 void FlowSolver::predict_with_old_pressure(const StageTime& time)
 {
   const auto timer = profile_.time(Phase::Momentum);
-  const double k = time.fraction * step_.dt;
   interpolate_increment();
-  operators::subtract_pressure_gradient(grid_, p_.view(), k, views(U_));
   prescribe_fluxes(time);
-  boundary_.subtract_outflow_gradient(p_.view(), k, views(U_));
+  pressure_->subtract_gradient(views(U_), p_.view(), time.fraction * step_.dt);
 }
 
 poisson::Report FlowSolver::project_stage(double dt, double reduction)
@@ -281,14 +278,15 @@ poisson::Report FlowSolver::project_stage(double dt, double reduction)
                                                      .max_iterations = options_.max_iterations});
   if (!std::isfinite(report.divergence))
     fail_as_no_number();
-  if (!report.converged)
+  if (!report.converged) {
+    const Vec3 worst = grid_.centre_of_any(report.worst_cell);
     fail_to_converge(
         "step {}, t = {:.6g}: the pressure did not converge: max |div U| h/|U| = {:.2e} after {} iterations, worst "
         "in cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}); a smaller time.step, or a finer grid where sheets come "
         "close to each other, may help",
         step_.index, step_.t_new, report.divergence, report.iterations, report.worst_cell[0], report.worst_cell[1],
-        report.worst_cell[2], grid_.centre(0, report.worst_cell[0]), grid_.centre(1, report.worst_cell[1]),
-        grid_.centre(2, report.worst_cell[2]));
+        report.worst_cell[2], worst[0], worst[1], worst[2]);
+  }
   boundary_.fill_pressure(p_.view());
   return report;
 }
@@ -309,11 +307,12 @@ void FlowSolver::fail_as_no_number() const
   const auto number = static_cast<long>(first);
   const Index3 c{static_cast<int>(number % n[0]), static_cast<int>(number / n[0] % n[1]),
                  static_cast<int>(number / n[0] / n[1])};
+  const Vec3 x = grid_.centre_of_any(c);
   fail_run(
       "step {}, t = {:.6g}: the flow is no number any more, first in cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}): it "
       "diverged, or a formula of the case (boundary, body force) gave no number; a smaller time.step, or time.cfl, may "
       "help",
-      step_.index, step_.t_new, c[0], c[1], c[2], grid_.centre(0, c[0]), grid_.centre(1, c[1]), grid_.centre(2, c[2]));
+      step_.index, step_.t_new, c[0], c[1], c[2], x[0], x[1], x[2]);
 }
 
 void FlowSolver::recover(const StageTime& time)
@@ -406,10 +405,18 @@ double FlowSolver::largest_flux_velocity() const
   return operators::convective_rate(grid_, views(U_)) * grid_.smallest_width();
 }
 
+/// The sides first: neighbours get theirs with the exchange.
+void FlowSolver::fill_velocity_halo(const View3<double>& u, const View3<const double>& U)
+{
+  boundary_.fill_velocity(u, U);
+  halo_.exchange(u);
+  if (grid_.kind() == grid::Kind::Curvilinear)
+    boundary_.extrapolate_edges(u);
+}
+
 void FlowSolver::fill_halos()
 {
-  halo_.exchange(views(state_.u));
-  boundary_.fill_velocity(views(state_.u), views(std::as_const(state_.U)));
+  fill_velocity_halo(views(state_.u), views(std::as_const(state_.U)));
   halo_.exchange({state_.p.view()});
   boundary_.fill_pressure(state_.p.view());
 }

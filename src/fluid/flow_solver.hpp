@@ -91,10 +91,11 @@ class FlowSolver {
 
   /// sum_d |U_d|/h_d of the accepted state [1/T].
   [[nodiscard]] double convective_rate() const;
-  /// nu sum_d 1/h_d^2 [1/T].
-  [[nodiscard]] double diffusive_rate() const { return options_.viscosity * operators::diffusive_rate(grid_); }
+  /// nu sum_d 1/h_d^2 of the finest cell [1/T].
+  [[nodiscard]] double diffusive_rate() const { return diffusive_rate_; }
 
  private:
+  void fill_velocity_halo(const View3<double>& u, const View3<const double>& U);
   void find_cut_links(const immersed::SheetMotion& predicted, double speed);
   void advance_stage(int stage);
   void add_varying_force(const operators::StageWeights& weights, double t);
@@ -119,6 +120,7 @@ class FlowSolver {
   BoundaryConditions boundary_;
   std::unique_ptr<poisson::PressureSolver> pressure_;
   HaloExchange halo_;
+  double diffusive_rate_;
   immersed::CutLinks links_;
   TimeStep step_;
   mutable Profile profile_;

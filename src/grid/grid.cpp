@@ -31,6 +31,39 @@ Grid::Grid(MPI_Comm comm, std::array<std::vector<double>, 3> faces, const std::a
   make_metrics();
 }
 
+Grid::Grid(MPI_Comm comm, const Index3& cells, const NodeSource& nodes, const std::array<bool, 3>& periodic)
+    : ranks_(comm, cells, periodic), kind_(Kind::Curvilinear), body_fitted_(std::make_unique<BodyFitted>(ranks_, nodes))
+{
+  smallest_width_ = body_fitted_->smallest_width();
+}
+
+Vec3 Grid::centre_of_any(const Index3& c) const
+{
+  const Vec3 here = owned().contains(c) ? centre(c) : Vec3(Vec3::Zero());
+  return {ranks_.sum(here[0]), ranks_.sum(here[1]), ranks_.sum(here[2])};
+}
+
+Vec3 Grid::face_centre(int axis, int i, int j, int k) const
+{
+  if (kind_ == Kind::Curvilinear)
+    return body_fitted_->face_centre(axis, i, j, k);
+  const Index3 c{i, j, k};
+  Vec3 x;
+  for (int a = 0; a < 3; ++a)
+    x[a] = a == axis ? face(a, c[a]) : centre(a, c[a]);
+  return x;
+}
+
+double Grid::area(int axis, int i, int j, int k) const
+{
+  if (kind_ == Kind::Curvilinear)
+    return body_fitted_->area_vector(axis, i, j, k).norm();
+  const Index3 c{i, j, k};
+  const int b = (axis + 1) % 3;
+  const int e = (axis + 2) % 3;
+  return width(b, c[b]) * width(e, c[e]);
+}
+
 void Grid::make_axis(int axis)
 {
   const int n = cells()[axis];

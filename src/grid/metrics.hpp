@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The geometry kernels see.  Uniform and rectilinear grids share one interface; a uniform one reads nothing from memory.
+// The geometry kernels see.  Uniform and rectilinear grids share one interface; a uniform one reads nothing from
+// memory; a curvilinear one has area vectors and a metric tensor.
 #pragma once
 
+#include <type_traits>
+
+#include "parallel/field.hpp"
 #include "parallel/for_each.hpp"
 
 namespace luff::grid {
@@ -86,5 +90,29 @@ struct Rectilinear {
   }
   LUFF_KERNEL double volume(int i, int j, int k) const { return h[0][i] * h[1][j] * h[2][k]; }
 };
+
+/// Place of G_ab in the six components of a symmetric tensor, stored as 11, 22, 33, 12, 13, 23.
+LUFF_KERNEL constexpr int symmetric(int a, int b)
+{
+  return a == b ? a : a + b + 2;
+}
+
+/// Body-fitted cells, index directions a = 0, 1, 2.  All views are valid on owned cells and one layer of halo; beyond a
+/// side of the domain the halo repeats the tensor and the volume of the cell inside.
+struct Curvilinear {
+  /// S[a][c]: Cartesian component c of the area vector of the LOW face normal to direction a, towards increasing index
+  /// [L^2].  Exact for the bilinear face, so that the six of a cell add up to zero to round-off.
+  View<const double> S[3][3];
+  /// G_ab = S_a . S_b/V at centres [L], in the order of symmetric(): a gradient along directions b becomes a flux
+  /// through a face of direction a.
+  View<const double> G[6];
+  View<const double> V;  ///< exact cell volume [L^3]
+  /// Cartesian coordinates of nodes, the low corner of cell (i, j, k) [L]; one layer of nodes around those of the
+  /// owned cells.
+  View<const double> node[3];
+};
+
+template <class Metric>
+inline constexpr bool is_curvilinear = std::is_same_v<Metric, Curvilinear>;
 
 }  // namespace luff::grid

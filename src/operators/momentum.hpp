@@ -17,23 +17,20 @@ struct StageWeights {
 
 /// One explicit stage of the momentum equation in every owned cell,
 ///
-///   N_c = -(1/V) sum_f [ U_f (u_P + u_N)/2 ] + nu (1/V) sum_f [ A_f (u_N - u_P)/d_f ] + f_c,
+///   N_c = -(1/V) sum_f [ U_f (u_P + u_N)/2 ] + nu (1/V) sum_f F_f + f_c,
 ///   du <- du + w_new N + w_old N_old,   N_old <- N,
 ///
-/// with central convection in divergence form.  u [L/T] at centres with valid halos, U [L^3/T] the volume fluxes.
-/// Second order on smoothly stretched grids.
+/// with central convection in divergence form.  u [L/T] at centres with valid halos (edges included on curvilinear
+/// grids), U [L^3/T] the volume fluxes.  F_f = A_f (u_N - u_P)/d_f, on curvilinear grids the full metric
+/// (GradientStencil).  Second order on smooth grids.
 void advance_momentum(const grid::Grid& grid, const View3<const double>& u, const View3<const double>& U,
                       double viscosity, const Vec3& force, const StageWeights& weights, const View3<double>& rate,
                       const View3<double>& increment);
 
-/// U*_f = U^n_f + A_f (du_P + du_N)/2 on every face of owned cells; du with valid halos.  Domain boundaries are the
+/// U*_f = U^n_f + S_f . (du_P + du_N)/2 on every face of owned cells; du with valid halos.  Domain boundaries are the
 /// caller's.
 void interpolate_to_faces(const grid::Grid& grid, const View3<const double>& U_old,
                           const View3<const double>& increment, const View3<double>& U);
-
-/// U_f <- U_f - k A_f (p_N - p_P)/d_f on every face between two cells; p with valid halos.  Domain boundaries and cut
-/// faces are the caller's.
-void subtract_pressure_gradient(const grid::Grid& grid, const View<const double>& p, double k, const View3<double>& U);
 
 /// u at centres such that u . S is the mean of the fluxes through opposite faces: exact for a uniform flow.
 void recover_velocity(const grid::Grid& grid, const View3<const double>& U, const View3<double>& u);
@@ -42,7 +39,8 @@ void recover_velocity(const grid::Grid& grid, const View3<const double>& U, cons
 /// number.  NaN when any flux is NaN.  Over all ranks.
 [[nodiscard]] double convective_rate(const grid::Grid& grid, const View3<const double>& U);
 
-/// Largest over cells of sum_d 1/h_d^2 [1/L^2]: times nu dt, the diffusion number.
+/// Largest over cells of sum_d 1/h_d^2, of sum_a G_aa/V on curvilinear grids [1/L^2]: times nu dt, the diffusion
+/// number.
 [[nodiscard]] double diffusive_rate(const grid::Grid& grid);
 
 }  // namespace luff::operators

@@ -29,14 +29,11 @@ const char* unpack(const View<T>& field, const IndexBox& box, const char* in)
 
 }  // namespace
 
-/// The plane of cells at one index along j or k, with the halos that were filled before it.
+/// The plane of cells at one index along j or k, with its halos: what is stale in them, the exchange along the next axis
+/// puts right.
 IndexBox HaloExchange::layer(int axis, int index) const
 {
-  IndexBox box = owned_;
-  for (int filled = 0; filled < axis; ++filled) {
-    --box.lo[filled];
-    ++box.hi[filled];
-  }
+  IndexBox box = owned_.grown(1);
   box.lo[axis] = index;
   box.hi[axis] = index + 1;
   return box;
@@ -46,8 +43,8 @@ template <class T>
 void HaloExchange::wrap_rows(const View<T>& field) const
 {
   const int n = cells_[0];
-  for (int k = owned_.lo[2]; k < owned_.hi[2]; ++k)
-    for (int j = owned_.lo[1]; j < owned_.hi[1]; ++j) {
+  for (int k = owned_.lo[2] - 1; k <= owned_.hi[2]; ++k)
+    for (int j = owned_.lo[1] - 1; j <= owned_.hi[1]; ++j) {
       field(-1, j, k) = field(n - 1, j, k);
       field(n, j, k) = field(0, j, k);
     }

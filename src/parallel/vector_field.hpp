@@ -7,7 +7,8 @@
 
 namespace luff {
 
-[[nodiscard]] inline Vec3 at(const View3<const double>& u, const Index3& c)
+template <class T>
+[[nodiscard]] Vec3 at(const View3<T>& u, const Index3& c)
 {
   return {u[0](c), u[1](c), u[2](c)};
 }

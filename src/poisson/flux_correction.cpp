@@ -259,6 +259,15 @@ Outflow FluxCorrection::correct(const View3<double>& U, const View<const T>& p, 
   return collect(U, partial);
 }
 
+template <class T>
+void FluxCorrection::subtract(const View3<double>& U, const View<const T>& p, double factor)
+{
+  const IndexBox& box = grid_.owned();
+  run_stages(box.lo[outer_], box.hi[outer_], 1, threads_for(box),
+             [&](int, int t) { correct_plane(U, p, factor, t); });
+}
+
+template void FluxCorrection::subtract(const View3<double>&, const View<const double>&, double);
 template Outflow FluxCorrection::correct(const View3<double>&, const View<const double>&, double, const PlaneWork&,
                                          const RowSink&);
 template Outflow FluxCorrection::correct(const View3<double>&, const View<const float>&, double, const PlaneWork&,

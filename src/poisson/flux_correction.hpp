@@ -53,6 +53,10 @@ class FluxCorrection {
   Outflow correct(const View3<double>& U, const View<const T>& p, double factor, const PlaneWork& prepare,
                   const RowSink& sink);
 
+  /// U <- U - factor G p on all faces of owned cells.  Local.
+  template <class T>
+  void subtract(const View3<double>& U, const View<const T>& p, double factor);
+
   [[nodiscard]] int outer_axis() const { return outer_; }
 
  private:

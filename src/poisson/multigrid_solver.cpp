@@ -271,6 +271,12 @@ double MultigridSolver::inner_tolerance(const Outflow& outflow, double initial_n
   return std::clamp(0.5 * missing, round_tolerance, 0.3);
 }
 
+void MultigridSolver::subtract_gradient(const View3<double>& U, const View<double>& p, double dt)
+{
+  halo_.exchange({p});
+  fluxes_.subtract<double>(U, p, dt);
+}
+
 Report MultigridSolver::project(const View3<double>& U, const View<double>& p, double dt, const Target& target)
 {
   const auto ignore = [](int, int, const double*) {};

@@ -20,6 +20,7 @@ class MultigridSolver final : public PressureSolver {
 
   void set_blocked(std::span<const FaceIndex> faces) override;
   Report project(const View3<double>& U, const View<double>& p, double dt, const Target& target) override;
+  void subtract_gradient(const View3<double>& U, const View<double>& p, double dt) override;
 
  private:
   [[nodiscard]] Index3 internal(const Index3& c) const { return {c[0], c[axis_[1]], c[axis_[2]]}; }

@@ -88,6 +88,7 @@ class PetscSolver final : public PressureSolver {
   }
 
   Report project(const View3<double>& U, const View<double>& p, double dt, const Target& target) override;
+  void subtract_gradient(const View3<double>& U, const View<double>& p, double dt) override;
 
  private:
   void rebuild()
@@ -280,6 +281,12 @@ int PetscSolver::solve(double scale, int max_iterations)
   check(VecRestoreArray(solution_, &values));
   halo_.exchange({correction_.view()});
   return static_cast<int>(iterations);
+}
+
+void PetscSolver::subtract_gradient(const View3<double>& U, const View<double>& p, double dt)
+{
+  halo_.exchange({p});
+  fluxes_.subtract<double>(U, p, dt);
 }
 
 Report PetscSolver::project(const View3<double>& U, const View<double>& p, double dt, const Target& target)

@@ -70,6 +70,10 @@ class PressureSolver {
   /// domain are left alone), and U holds the corrected fluxes on all faces of owned cells.
   /// Where no pressure is prescribed, p has zero mean over each connected part of the fluid.
   virtual Report project(const View3<double>& U, const View<double>& p, double dt, const Target& target) = 0;
+
+  /// U <- U - dt G p on all faces of owned cells, with the G of project(), for a p that is known.  The halo of p is
+  /// filled by exchange.
+  virtual void subtract_gradient(const View3<double>& U, const View<double>& p, double dt) = 0;
 };
 
 struct SolverOptions {

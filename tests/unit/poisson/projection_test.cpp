@@ -2,6 +2,8 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+
+#include "support/faces.hpp"
 #include <omp.h>
 
 #include "core/error.hpp"
@@ -277,6 +279,23 @@ TEST(PressureSolver, RefusesAnUnknownKind)
   const Problem problem{{4, 4, 4}};
   const grid::Grid grid = problem.grid();
   EXPECT_THROW((void)make_pressure_solver(grid, problem.conditions(), {"hypre"}), InputError);
+}
+
+TEST(Projection, FluxesLoseTheGradientOfALinearPressureExactly)
+{
+  const grid::Grid grid(MPI_COMM_SELF,
+                        {luff::test::stretched_faces(0, 1, 8, 0.3), luff::test::stretched_faces(0, 1, 8, -0.3),
+                         luff::test::stretched_faces(0, 1, 8, 0.3)},
+                        {false, false, false});
+  const Vec3 slope(1.0, 2.0, -3.0);
+  Field3<double> U = make_field3<double>(grid.owned());
+  Field<double> p(grid.owned());
+  for_each_cell_in_order(grid.owned(), [&](int i, int j, int k) { p(i, j, k) = slope.dot(grid.centre(i, j, k)); });
+  make_pressure_solver(grid, {})->subtract_gradient(views(U), p.view(), 0.5);
+  for (int d = 0; d < 3; ++d) {
+    EXPECT_NEAR(U[d](4, 4, 4) / grid.area(d, 4, 4, 4), -0.5 * slope[d], 1e-14);
+    EXPECT_EQ(U[d](0, 0, 0), 0.0);
+  }
 }
 
 }  // namespace
