@@ -13,8 +13,6 @@ namespace luff::immersed {
 
 namespace {
 
-using Corners = std::array<Vec3, 3>;
-
 struct Range {
   int first = 0;
   int last = 0;  ///< one past the end
@@ -47,16 +45,6 @@ Range clipped(const Range& range, int first, int last)
   return {std::max(range.first, first), std::min(range.last, last)};
 }
 
-Point2 projected(const Vec3& x, int b, int c)
-{
-  return {x[b], x[c]};
-}
-
-int sign(double value)
-{
-  return (value > 0.0) - (value < 0.0);
-}
-
 /// Side of the edge (from, to) on which the displaced point q - (e_b, e_c) lies: +1 left, -1 right, 0 when the edge has
 /// no length.  `area` is (from - q) x (to - q); where it vanishes, e_b (to_c - from_c) - e_c (to_b - from_b) decides,
 /// the larger displacement first.
@@ -71,14 +59,6 @@ int side_of_edge(double area, const Point2& from, const Point2& to, bool b_moves
   return by_c != 0 ? by_c : by_b;
 }
 
-/// Sign of component `axis` of the normal (x1 - x0) x (x2 - x0).
-int sign_of_normal(const Corners& x, int axis)
-{
-  const int b = (axis + 1) % 3;
-  const int c = (axis + 2) % 3;
-  return sign(area(projected(x[1], b, c), projected(x[2], b, c), projected(x[0], b, c)));
-}
-
 /// One triangle and the lines along one axis.
 class LineSearch {
  public:
@@ -86,7 +66,7 @@ class LineSearch {
       : grid_(grid), a_(axis), x_(x), triangle_(triangle), links_(around[axis])
   {
     for (int m = 0; m < 3; ++m)
-      shadow_[m] = projected(x[m], b_, c_);
+      shadow_[m] = projected(x[m], axis);
   }
 
   /// Appends the hit of the line through the centres (cell[b], cell[c]), if there is one and this rank owns its face.
@@ -234,7 +214,8 @@ void cross_lines(const grid::Grid& grid, int axis, const Corners& x, int triangl
       search.hit(cell, found);
 }
 
-/// By axis, then k, j, i of the face, then theta; the triangle settles what is left.
+}  // namespace
+
 void sort(std::vector<Crossing>& crossings, const Index3& cells)
 {
   const auto place = [&](const Crossing& x) {
@@ -247,8 +228,6 @@ void sort(std::vector<Crossing>& crossings, const Index3& cells)
     return at_p != at_q ? at_p < at_q : std::tie(p.theta, p.triangle) < std::tie(q.theta, q.triangle);
   });
 }
-
-}  // namespace
 
 std::vector<Crossing> find_crossings(const grid::Grid& grid, std::span<const Vec3> positions,
                                      std::span<const std::array<int, 3>> triangles)

@@ -43,4 +43,7 @@ struct Crossing {
 [[nodiscard]] std::vector<Crossing> find_crossings(const grid::Grid& grid, std::span<const Vec3> positions,
                                                    std::span<const std::array<int, 3>> triangles);
 
+/// By axis, then k, j, i of the face, then theta; the triangle settles what is left.
+void sort(std::vector<Crossing>& crossings, const Index3& cells);
+
 }  // namespace luff::immersed
