@@ -13,6 +13,8 @@ namespace {
 
 /// A round must gain this much whatever round-off is estimated to be.
 constexpr double largest_floor = 1e-3;
+/// Iterations without any gain after which round-off is all that is left.
+constexpr int patience = 8;
 
 /// row(start, count) for the rows of both colours of plane k.
 template <class Row>
@@ -25,14 +27,16 @@ void for_rows(const Layout& layout, int k, Row row)
 
 }  // namespace
 
-ConjugateGradients::ConjugateGradients(Multigrid& multigrid, MPI_Comm comm)
+ConjugateGradients::ConjugateGradients(Multigrid& multigrid, CrossTerms* cross_terms, MPI_Comm comm)
     : multigrid_(multigrid),
+      cross_terms_(cross_terms),
       comm_(comm),
-      diagonal_(multigrid.finest().box().typical_diagonal()),
       e_(multigrid.finest().layout().size),
       p_(multigrid.finest().layout().size),
       q_(multigrid.finest().layout().size)
 {
+  const double own = multigrid.finest().box().typical_diagonal();
+  MPI_Allreduce(&own, &diagonal_, 1, MPI_DOUBLE, MPI_MAX, comm);
 }
 
 /// Sums plane by plane, then in the order of planes: the same on any number of threads.
@@ -109,18 +113,38 @@ double ConjugateGradients::advance_direction(float beta)
     });
     level.exchange().close_plane(p_.data(), k, Colours::Both);
   };
-  const auto image = [&](int k) { partial[k - owned.lo[2]] = level.apply_plane(k, p_.data(), q_.data()); };
+  const auto prepare = [&](int k) {
+    if (cross_terms_ != nullptr)
+      cross_terms_->prepare_plane(k, p_.data());
+  };
+  const auto image = [&](int k) {
+    double& sum = partial[k - owned.lo[2]];
+    sum = level.apply_plane(k, p_.data(), q_.data());
+    if (cross_terms_ != nullptr)
+      sum += cross_terms_->apply_plane(k, p_.data(), q_.data());
+  };
   const int threads = threads_for(owned);
+  const int prepared = cross_terms_ != nullptr ? 2 : 1;
+  const auto stage = [&](int s, int k) { s == 0 ? direction(k) : s < prepared ? prepare(k) : image(k); };
   if (level.exchange().within_planes()) {
-    run_stages(owned.lo[2], owned.hi[2], 2, threads, [&](int s, int k) { s == 0 ? direction(k) : image(k); });
+    run_stages(owned.lo[2], owned.hi[2], prepared + 1, threads, stage);
   } else {
     run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { direction(k); });
-    level.exchange().exchange(p_.data(), Colours::Both);
-    run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { image(k); });
+    fill_halo(p_);
+    run_stages(owned.lo[2], owned.hi[2], prepared, threads, [&](int s, int k) { stage(s + 1, k); });
   }
   double sum = std::accumulate(partial.begin(), partial.end(), 0.0);
   sum_over_ranks({&sum, 1});
   return sum;
+}
+
+void ConjugateGradients::fill_halo(Values& values)
+{
+  RowExchange& exchange = multigrid_.finest().exchange();
+  if (cross_terms_ != nullptr)
+    exchange.exchange_with_edges(values.data());
+  else
+    exchange.exchange(values.data(), Colours::Both);
 }
 
 /// e <- e + alpha p, r <- r - alpha q.
@@ -167,8 +191,11 @@ ConjugateGradients::Result ConjugateGradients::solve(double tolerance, int max_i
   Result result;
   double rz_before = 1.0;
   double floor = 0.0;
+  double best = 1.0;
+  int without_gain = 0;
   e_.resize(e_.size());
-  while (result.iterations < max_iterations && result.reduction > std::max(tolerance, floor)) {
+  while (result.iterations < max_iterations && result.reduction > std::max(tolerance, floor) &&
+         without_gain < patience) {
     const double rz = precondition();
     ++result.iterations;
     const bool first = result.iterations == 1;
@@ -183,13 +210,15 @@ ConjugateGradients::Result ConjugateGradients::solve(double tolerance, int max_i
     rz_before = rz;
     const Norms norms = step(static_cast<float>(alpha), first);
     result.reduction = norms.residual / initial;
+    without_gain = result.reduction < best ? 0 : without_gain + 1;
+    best = std::min(best, result.reduction);
     constexpr double half_digit = 0.5 * std::numeric_limits<float>::epsilon();
     floor = std::min(largest_floor, half_digit * diagonal_ * norms.solution / initial);
   }
   const IndexBox& owned = level.layout().owned;
   for (int k = owned.lo[2]; k < owned.hi[2]; ++k)
     level.exchange().close_plane(e_.data(), k, Colours::Both);
-  level.exchange().exchange(e_.data(), Colours::Both);
+  fill_halo(e_);
   return result;
 }
 

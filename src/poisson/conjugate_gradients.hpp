@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "poisson/cross_terms.hpp"
 #include "poisson/multigrid.hpp"
 
 namespace luff::poisson {
@@ -17,7 +18,8 @@ class ConjugateGradients {
     bool finite = true;
   };
 
-  ConjugateGradients(Multigrid& multigrid, MPI_Comm comm);
+  /// A is the operator of the finest level, and the cross terms where there are some.
+  ConjugateGradients(Multigrid& multigrid, CrossTerms* cross_terms, MPI_Comm comm);
 
   /// Solves A e = f, f being the right-hand side in finest().f, which is overwritten by the residual; stops when its
   /// 2-norm fell by `tolerance`, or to what the rounding of e makes of A e.  e gets its halo.  Collective.
@@ -31,14 +33,16 @@ class ConjugateGradients {
   [[nodiscard]] double norm_of_residual() const;
   double precondition();
   double advance_direction(float beta);
+  void fill_halo(Values& values);
   struct Norms {
     double residual, solution;
   };
   Norms step(float alpha, bool first);
 
   Multigrid& multigrid_;
+  CrossTerms* cross_terms_;
   MPI_Comm comm_;
-  double diagonal_;  // root mean square of A's
+  double diagonal_ = 0.0;  // root mean square of A's
   Values e_, p_, q_;
 };
 

@@ -339,6 +339,8 @@ class Coarsening {
 /// by means along each axis.
 double Box::typical_diagonal() const
 {
+  if (stored != nullptr)
+    return std::sqrt(stored->diagonal_squares() / static_cast<double>(stored->cells()));
   std::array<double, 3> hh{}, aa{}, ha{};
   for (int axis = 0; axis < 3; ++axis) {
     const Line& line = lines[axis];
@@ -365,6 +367,41 @@ std::span<const Link> Cuts::links_from(Unknown x) const
   return {range.first, range.second};
 }
 
+namespace {
+
+/// visit(cell, side) for both cells beside a face that lie in the domain.
+template <class Visit>
+void for_cells_beside(const Box& box, const FaceIndex& face, Visit visit)
+{
+  Index3 high = face.cell;
+  const int n = box.lines[face.axis].n;
+  if (box.lines[face.axis].periodic)
+    high[face.axis] %= n;
+  Index3 low = high;
+  low[face.axis] = box.lines[face.axis].periodic ? (high[face.axis] + n - 1) % n : high[face.axis] - 1;
+  if (high[face.axis] < n)
+    visit(high, 2 * face.axis);
+  if (low[face.axis] >= 0)
+    visit(low, 2 * face.axis + 1);
+}
+
+void sort_unique(std::vector<Index3>& cells)
+{
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
+
+}  // namespace
+
+std::vector<Index3> cells_beside(const Box& box, std::span<const FaceIndex> faces)
+{
+  std::vector<Index3> cells;
+  for (const FaceIndex& face : faces)
+    for_cells_beside(box, face, [&](const Index3& cell, int) { cells.push_back(cell); });
+  sort_unique(cells);
+  return cells;
+}
+
 Cuts cuts_of_blocked_faces(const Box& box, std::span<const FaceIndex> faces)
 {
   Cuts cuts;
@@ -376,19 +413,38 @@ Cuts cuts_of_blocked_faces(const Box& box, std::span<const FaceIndex> faces)
         cut.coefficient[s] = box.coefficient(cell, s);
     cut.coefficient[side] = 0.0;
   };
-  for (const FaceIndex& face : faces) {
-    Index3 high = face.cell;
-    const int n = box.lines[face.axis].n;
-    if (box.lines[face.axis].periodic)
-      high[face.axis] %= n;
-    Index3 low = high;
-    low[face.axis] = box.lines[face.axis].periodic ? (high[face.axis] + n - 1) % n : high[face.axis] - 1;
-    if (high[face.axis] < n)
-      close(high, 2 * face.axis);
-    if (low[face.axis] >= 0)
-      close(low, 2 * face.axis + 1);
-  }
+  for (const FaceIndex& face : faces)
+    for_cells_beside(box, face, close);
   return cuts;
+}
+
+std::vector<Index3> cells_near_cuts(const Cuts& fine_cuts, const Box& coarse, const std::array<Merge, 3>& merges)
+{
+  std::vector<Index3> boxes;
+  const auto add_box_of = [&](const Index3& c) {
+    boxes.push_back({merges[0].parent[c[0]], merges[1].parent[c[1]], merges[2].parent[c[2]]});
+  };
+  for (const CutCell& cut : fine_cuts.cells)
+    add_box_of(cut.cell);
+  for (const Extra& extra : fine_cuts.extras)
+    add_box_of(extra.cell);
+  sort_unique(boxes);
+  const std::size_t own = boxes.size();
+  for (std::size_t n = 0; n < own; ++n)
+    for (int side = 0; side < 6; ++side) {
+      Index3 other;
+      if (coarse.neighbour(boxes[n], side, other))
+        boxes.push_back(other);
+    }
+  sort_unique(boxes);
+  std::vector<Index3> cells;
+  for (const Index3& C : boxes)
+    for (int k = merges[2].first[C[2]]; k < merges[2].first[C[2] + 1]; ++k)
+      for (int j = merges[1].first[C[1]]; j < merges[1].first[C[1] + 1]; ++j)
+        for (int i = merges[0].first[C[0]]; i < merges[0].first[C[0] + 1]; ++i)
+          cells.push_back({i, j, k});
+  sort_unique(cells);
+  return cells;
 }
 
 Cuts coarsen_cuts(Cuts& fine_cuts, const Box& fine, const Box& coarse, const std::array<Merge, 3>& merges)

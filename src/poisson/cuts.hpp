@@ -9,6 +9,7 @@
 
 #include "poisson/cell_map.hpp"
 #include "poisson/line.hpp"
+#include "poisson/stored_coefficients.hpp"
 
 namespace luff::poisson {
 
@@ -36,10 +37,12 @@ inline constexpr Unknown first_pocket = no_unknown + 2;
   return -1 - static_cast<Unknown>(e);
 }
 
-/// The three axes of a level, and the clean 7-point operator on it, without any blocked face:
-/// the coefficient of a face is area / distance = h h / d.
+/// The three axes of a level, and the clean 7-point operator on it: without any blocked face, the coefficient of a face
+/// being area / distance = h h / d; or with stored coefficients, which know of blocked faces, but not of cells that
+/// hold several values.
 struct Box {
   std::array<Line, 3> lines;
+  const StoredCoefficients* stored = nullptr;
 
   [[nodiscard]] Index3 cells() const { return {lines[0].n, lines[1].n, lines[2].n}; }
   [[nodiscard]] Unknown key(const Index3& c) const
@@ -61,12 +64,15 @@ struct Box {
   }
   [[nodiscard]] double coefficient(const Index3& c, int side) const
   {
+    if (stored != nullptr)
+      return stored->coefficient(c, side);
     const int a = side / 2;
     const int b = (a + 1) % 3;
     const int e = (a + 2) % 3;
     return lines[a].inverse_d[c[a] + side % 2] * lines[b].h[c[b]] * lines[e].h[c[e]];
   }
-  /// Root mean square of the diagonal of the clean operator, within the spread of widths.
+  /// Root mean square of the diagonal of the clean operator, within the spread of widths; of the part of this rank
+  /// where coefficients are stored.
   [[nodiscard]] double typical_diagonal() const;
   [[nodiscard]] double measure(const Index3& c) const
   {
@@ -122,6 +128,13 @@ struct Cuts {
   }
   [[nodiscard]] std::span<const Link> links_from(Unknown x) const;
 };
+
+/// Cells whose coefficients coarsen_cuts() may read from a box, sorted.
+[[nodiscard]] std::vector<Index3> cells_near_cuts(const Cuts& fine_cuts, const Box& coarse,
+                                                  const std::array<Merge, 3>& merges);
+
+/// Cells beside blocked faces, sorted.
+[[nodiscard]] std::vector<Index3> cells_beside(const Box& box, std::span<const FaceIndex> faces);
 
 /// The finest level: cells beside blocked faces.
 [[nodiscard]] Cuts cuts_of_blocked_faces(const Box& box, std::span<const FaceIndex> faces);

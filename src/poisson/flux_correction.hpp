@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "parallel/halo.hpp"
@@ -10,7 +11,8 @@
 
 namespace luff::poisson {
 
-/// Net outflow of fluxes from the cells of all ranks.
+/// Net outflow of fluxes from the cells of all ranks; that of isolated cells, whose faces are all closed, counts as
+/// zero.
 struct Outflow {
   double sum = 0.0;         ///< over cells [L^3/T]
   double norm = 0.0;        ///< 2-norm over cells [L^3/T]
@@ -32,12 +34,16 @@ struct Outflow {
   return outflow.divergence == 0.0 ? 0.0 : outflow.divergence / target.speed;
 }
 
+/// The part that does not depend on the grid's kind.
 class FluxCorrection {
  public:
   FluxCorrection(const grid::Grid& grid, const SideConditions& sides);
+  FluxCorrection(const FluxCorrection&) = delete;
+  FluxCorrection& operator=(const FluxCorrection&) = delete;
+  virtual ~FluxCorrection() = default;
 
   /// Faces among those of owned cells; none of them is corrected.
-  void set_blocked(std::span<const FaceIndex> faces);
+  virtual void set_blocked(std::span<const FaceIndex> faces);
 
   /// Work on the rows of the plane t along the outer axis, the longer of y and z.
   using PlaneWork = std::function<void(int t)>;
@@ -48,54 +54,79 @@ class FluxCorrection {
   [[nodiscard]] Outflow measure(const View3<double>& U, const RowSink& sink) const;
 
   /// U <- U - factor G p on all faces of owned cells, then measures.  `prepare` makes p on a plane (halo rows included)
-  /// just before it is used; p needs its halo, except beyond the sides of the domain.  Collective.
+  /// just before it is used; p needs its halo, mirrored beyond Dirichlet sides.  Collective.
   template <class T>
   Outflow correct(const View3<double>& U, const View<const T>& p, double factor, const PlaneWork& prepare,
                   const RowSink& sink);
 
   /// U <- U - factor G p on all faces of owned cells.  Local.
-  template <class T>
-  void subtract(const View3<double>& U, const View<const T>& p, double factor);
+  void subtract(const View3<double>& U, const View<const double>& p, double factor);
 
   [[nodiscard]] int outer_axis() const { return outer_; }
 
- private:
-  struct Partial {
-    double sum = 0.0, norm = 0.0, flux_norm = 0.0, divergence = 0.0;
-  };
+ protected:
+  /// Stages of work on plane t: what correct_plane() needs from the planes around, and the correction itself.
+  [[nodiscard]] virtual bool prepares_planes() const { return false; }
+  virtual void prepare_plane(const View<const double>&, int) {}
+  virtual void prepare_plane(const View<const float>&, int) {}
+  virtual void correct_plane(const View3<double>& U, const View<const double>& p, double factor, int t) = 0;
+  virtual void correct_plane(const View3<double>& U, const View<const float>& p, double factor, int t) = 0;
+  /// Largest of |net_i| h / V, h the smallest width of the cell, over row (j, k).
+  [[nodiscard]] virtual double largest_divergence(const double* net, int j, int k) const = 0;
+  /// h / V of one cell.
+  [[nodiscard]] virtual double width_over_volume(const Index3& c) const = 0;
+
   template <class Row>
-  void for_rows(int t, Row row) const;
-  template <class T>
-  void correct_plane(const View3<double>& U, const View<const T>& p, double factor, int t);
-  template <class T>
-  void correct_along_row(const View<double>& U, const View<const T>& p, double factor, int j, int k) const;
-  template <class T>
-  void correct_across_rows(int axis, const View<double>& U, const View<const T>& p, double factor, int j, int k) const;
-  [[nodiscard]] Partial measure_row(const View3<double>& U, int j, int k, double* net) const;
-  void measure_plane(const View3<double>& U, int t, const RowSink& sink, std::vector<Partial>& partial) const;
-  [[nodiscard]] std::size_t number_of_row(int j, int k) const;
-  [[nodiscard]] Outflow collect(const View3<double>& U, const std::vector<Partial>& partial) const;
-  [[nodiscard]] Index3 worst_cell_of_row(const View3<double>& U, std::size_t row) const;
-  [[nodiscard]] double inverse_distance(int axis, int face) const;
-  template <class T>
-  [[nodiscard]] const T* zero_row() const
+  void for_rows(int t, Row row) const
   {
-    if constexpr (std::is_same_v<T, float>)
-      return float_zeros_.data();
-    else
-      return zeros_.data();
+    const int inner = 3 - outer_;
+    for (int b = grid_.owned().lo[inner]; b < grid_.owned().hi[inner]; ++b)
+      outer_ == 2 ? row(b, t) : row(t, b);
   }
 
   const grid::Grid& grid_;
   SideConditions sides_;
   int outer_;
-  std::vector<double> inverse_distance_x_;
-  std::vector<double> width_x_;
-  std::vector<double> zeros_;
-  std::vector<float> float_zeros_;
-  std::vector<FaceIndex> blocked_;  // by plane
-  std::vector<int> first_blocked_;  // of a plane
-  std::vector<double> kept_;
+
+ private:
+  struct Partial {
+    double sum = 0.0, norm = 0.0, flux_norm = 0.0, divergence = 0.0;
+  };
+  [[nodiscard]] Partial measure_row(const View3<double>& U, int j, int k, double* net) const;
+  void measure_plane(const View3<double>& U, int t, const RowSink& sink, std::vector<Partial>& partial) const;
+  [[nodiscard]] std::size_t number_of_row(int j, int k) const;
+  void forget_isolated(int j, int k, double* net) const;
+  [[nodiscard]] Outflow collect(const View3<double>& U, const std::vector<Partial>& partial) const;
+  [[nodiscard]] Index3 worst_cell_of_row(const View3<double>& U, std::size_t row) const;
+
+  std::vector<int> isolated_;        // i of isolated cells, by row
+  std::vector<int> first_isolated_;  // of a row; empty when there are none
+};
+
+/// The correction for the grid's kind.
+[[nodiscard]] std::unique_ptr<FluxCorrection> make_flux_correction(const grid::Grid& grid, const SideConditions& sides);
+
+/// Owned cells of which every face is blocked or on a Neumann side.
+[[nodiscard]] std::vector<Index3> isolated_cells(const grid::Grid& grid, const SideConditions& sides,
+                                                 std::span<const FaceIndex> blocked);
+
+/// Beyond Dirichlet sides, halos included: p <- -p of the cell inside, so that p = 0 on the side.
+template <class T>
+void mirror_beyond_sides(const grid::Grid& grid, const SideConditions& sides, const View<T>& p);
+
+/// The pressure given on Dirichlet sides: the means of p in the cells inside and beyond.
+class SidePressure {
+ public:
+  SidePressure(const grid::Grid& grid, const SideConditions& sides, const View<const double>& p);
+  /// Makes the halo beyond Dirichlet sides mirror p there about the given pressure.
+  void restore(const View<double>& p) const;
+
+ private:
+  struct Value {
+    Index3 inside, beyond;
+    double value;
+  };
+  std::vector<Value> values_;
 };
 
 }  // namespace luff::poisson

@@ -42,10 +42,29 @@ struct Layout {
     return origin + j * row + k * plane + colour * half;
   }
   [[nodiscard]] std::ptrdiff_t index(int i, int j, int k) const { return start(j, k, (i + j + k) & 1) + (i >> 1); }
+  [[nodiscard]] std::ptrdiff_t index(const Index3& c) const { return index(c[0], c[1], c[2]); }
   /// Parity of i of the cells of a colour in a row.
   [[nodiscard]] static int parity(int j, int k, int colour) { return (j + k + colour) & 1; }
   /// Number of owned cells of a parity in a row.
   [[nodiscard]] int count(int parity) const { return (owned.hi[0] - parity + 1) / 2; }
+};
+
+/// Places of the first cell of a colour in a row, and of its six neighbours; those of the n-th follow by n.
+struct Stencil {
+  std::ptrdiff_t own, left, right, j_low, j_high, k_low, k_high;
+  int parity, count;
+
+  Stencil(const Layout& layout, int j, int k, int colour)
+      : own(layout.start(j, k, colour)), parity(Layout::parity(j, k, colour)), count(layout.count(parity))
+  {
+    right = layout.start(j, k, 1 - colour) + parity;
+    left = right - 1;
+    const std::ptrdiff_t other = own + (colour == 0 ? layout.half : -layout.half);
+    j_low = other - layout.row;
+    j_high = other + layout.row;
+    k_low = other - layout.plane;
+    k_high = other + layout.plane;
+  }
 };
 
 /// Values of a level: those of its cells in the order of Layout, then those of unknowns that are no cell.

@@ -10,39 +10,96 @@ namespace luff::poisson {
 
 namespace {
 
-/// u = (f + sum of neighbours) / diagonal, every neighbour being of the other colour.
-struct CleanRow {
-  const float* __restrict left_face;
-  const float* __restrict right_face;
-  const float* __restrict width;
+/// Seven-point rows of one colour: every neighbour is of the other one.
+struct Neighbours {
   const float* __restrict left;
   const float* __restrict right;
   const float* __restrict j_low;
   const float* __restrict j_high;
   const float* __restrict k_low;
   const float* __restrict k_high;
+
+  Neighbours(const float* values, const Stencil& s)
+      : left(values + s.left),
+        right(values + s.right),
+        j_low(values + s.j_low),
+        j_high(values + s.j_high),
+        k_low(values + s.k_low),
+        k_high(values + s.k_high)
+  {
+  }
+};
+
+/// Coefficients from tables along each axis; a row of the operator gives
+///   neighbours:  sum of the neighbours' values times coefficients, so that u = (f + neighbours)/diagonal;
+///   image:       A u at a cell of value `own`, by differences: exactly zero where u is constant, or modes that are
+///                nearly constant on both sides of a narrow gap would drown in round-off.
+struct ProductRow {
+  Neighbours u;
+  const float* __restrict left_face;
+  const float* __restrict right_face;
+  const float* __restrict width;
+  const float* __restrict inverse_diagonal;
   float row, cj_low, cj_high, ck_low, ck_high;
 
   [[nodiscard]] float neighbours(int n) const
   {
-    return row * (left_face[n] * left[n] + right_face[n] * right[n]) +
-           width[n] * (cj_low * j_low[n] + cj_high * j_high[n] + ck_low * k_low[n] + ck_high * k_high[n]);
+    return row * (left_face[n] * u.left[n] + right_face[n] * u.right[n]) +
+           width[n] * (cj_low * u.j_low[n] + cj_high * u.j_high[n] + ck_low * u.k_low[n] + ck_high * u.k_high[n]);
   }
-  /// A u at a cell of value `own`, by differences: exactly zero where u is constant, or modes that are nearly constant
-  /// on both sides of a narrow gap would drown in round-off.
   [[nodiscard]] float image(int n, float own) const
   {
-    return row * (left_face[n] * (own - left[n]) + right_face[n] * (own - right[n])) +
-           width[n] * (cj_low * (own - j_low[n]) + cj_high * (own - j_high[n]) + ck_low * (own - k_low[n]) +
-                       ck_high * (own - k_high[n]));
+    return row * (left_face[n] * (own - u.left[n]) + right_face[n] * (own - u.right[n])) +
+           width[n] * (cj_low * (own - u.j_low[n]) + cj_high * (own - u.j_high[n]) + ck_low * (own - u.k_low[n]) +
+                       ck_high * (own - u.k_high[n]));
+  }
+  [[nodiscard]] float inverse(int n) const { return inverse_diagonal[n]; }
+};
+
+/// Coefficients from memory.
+struct StoredRow {
+  Neighbours u;
+  const float* __restrict left;
+  const float* __restrict right;
+  const float* __restrict j_low;
+  const float* __restrict j_high;
+  const float* __restrict k_low;
+  const float* __restrict k_high;
+
+  StoredRow(const float* values, const StoredCoefficients& c, const Stencil& s)
+      : u(values, s),
+        left(c.face(0) + s.own),
+        right(c.face(0) + s.right),
+        j_low(c.face(1) + s.own),
+        j_high(c.face(1) + s.j_high),
+        k_low(c.face(2) + s.own),
+        k_high(c.face(2) + s.k_high)
+  {
+  }
+  [[nodiscard]] float neighbours(int n) const
+  {
+    return left[n] * u.left[n] + right[n] * u.right[n] + j_low[n] * u.j_low[n] + j_high[n] * u.j_high[n] +
+           k_low[n] * u.k_low[n] + k_high[n] * u.k_high[n];
+  }
+  [[nodiscard]] float image(int n, float own) const
+  {
+    return left[n] * (own - u.left[n]) + right[n] * (own - u.right[n]) + j_low[n] * (own - u.j_low[n]) +
+           j_high[n] * (own - u.j_high[n]) + k_low[n] * (own - u.k_low[n]) + k_high[n] * (own - u.k_high[n]);
+  }
+  /// 0 in isolated cells.
+  [[nodiscard]] float inverse(int n) const
+  {
+    const float diagonal = left[n] + right[n] + j_low[n] + j_high[n] + k_low[n] + k_high[n];
+    return diagonal > 0.0f ? 1.0f / diagonal : 0.0f;
   }
 };
 
 }  // namespace
 
-Level::Level(const Box& box, const IndexBox& owned, const Neighbourhood* neighbourhood)
-    : box_(box),
-      layout_(owned),
+Level::Level(const Box& box, const IndexBox& owned, const Neighbourhood* neighbourhood, Kind kind)
+    : layout_(owned),
+      stored_(kind == Kind::Stored ? std::make_unique<StoredCoefficients>(layout_, box.lines) : nullptr),
+      box_{box.lines, stored_.get()},
       distributed_(neighbourhood != nullptr),
       neighbourhood_(neighbourhood),
       exchange_(layout_, box.lines, neighbourhood)
@@ -70,22 +127,6 @@ void Level::make_tables()
   }
 }
 
-inline Level::Stencil Level::stencil(int j, int k, int colour) const
-{
-  Stencil s;
-  s.parity = Layout::parity(j, k, colour);
-  s.count = layout_.count(s.parity);
-  s.own = layout_.start(j, k, colour);
-  s.right = layout_.start(j, k, 1 - colour) + s.parity;
-  s.left = s.right - 1;
-  const std::ptrdiff_t other = s.own + (colour == 0 ? layout_.half : -layout_.half);
-  s.j_low = other - layout_.row;
-  s.j_high = other + layout_.row;
-  s.k_low = other - layout_.plane;
-  s.k_high = other + layout_.plane;
-  return s;
-}
-
 inline Level::Faces Level::faces(int j, int k) const
 {
   const float hj = widths_[0][j];
@@ -93,30 +134,6 @@ inline Level::Faces Level::faces(int j, int k) const
   return {hj * hk, hk * inverse_distances_[0][j], hk * inverse_distances_[0][j + 1], hj * inverse_distances_[1][k],
           hj * inverse_distances_[1][k + 1]};
 }
-
-namespace {
-
-template <class Stencil, class Faces, class Tables>
-inline CleanRow clean_row(const float* values, const Stencil& s, const Faces& c, const Tables& left,
-                          const Tables& right, const Tables& width)
-{
-  return {left[s.parity].data(),
-          right[s.parity].data(),
-          width[s.parity].data(),
-          values + s.left,
-          values + s.right,
-          values + s.j_low,
-          values + s.j_high,
-          values + s.k_low,
-          values + s.k_high,
-          c.row,
-          c.j_low,
-          c.j_high,
-          c.k_low,
-          c.k_high};
-}
-
-}  // namespace
 
 namespace {
 
@@ -164,19 +181,35 @@ void Level::prepare_threads()
     inverse_rows_.resize(threads, ends_);
 }
 
-void Level::start_plane(int k)
+/// work(stencil, row) for the rows of a colour on plane k, as functions of `values`.
+template <class Work>
+void Level::for_rows(int k, int colour, const float* values, Work work) const
 {
+  if (stored_ != nullptr) {
+    for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
+      const Stencil s(layout_, j, k, colour);
+      work(s, StoredRow(values, *stored_, s));
+    }
+    return;
+  }
   InverseDiagonal diagonal(ends_, width_, inverse_rows_[omp_get_thread_num()]);
   for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
-    const Stencil s = stencil(j, k, 0);
+    const Stencil s(layout_, j, k, colour);
     const Faces c = faces(j, k);
-    const float* __restrict inverse = diagonal.of(s.parity, c);
+    work(s, ProductRow{Neighbours(values, s), left_[s.parity].data(), right_[s.parity].data(), width_[s.parity].data(),
+                       diagonal.of(s.parity, c), c.row, c.j_low, c.j_high, c.k_low, c.k_high});
+  }
+}
+
+void Level::start_plane(int k)
+{
+  for_rows(k, 0, u.data(), [this](const Stencil& s, const auto& row) {
     const float* __restrict rhs = f.data() + s.own;
     float* __restrict out = u.data() + s.own;
 #pragma omp simd
     for (int n = 0; n < s.count; ++n)
-      out[n] = rhs[n] * inverse[n];
-  }
+      out[n] = rhs[n] * row.inverse(n);
+  });
   for (const Row* row = rows_begin(k, 0); row != rows_end(k, 0); ++row) {
     float sum = f[row->place];
     for (int e = row->begin; e < row->end; ++e)
@@ -189,18 +222,13 @@ void Level::start_plane(int k)
 
 void Level::relax_plane(int k, int colour)
 {
-  InverseDiagonal diagonal(ends_, width_, inverse_rows_[omp_get_thread_num()]);
-  for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
-    const Stencil s = stencil(j, k, colour);
-    const Faces c = faces(j, k);
-    const CleanRow row = clean_row(u.data(), s, c, left_, right_, width_);
-    const float* __restrict inverse = diagonal.of(s.parity, c);
+  for_rows(k, colour, u.data(), [this](const Stencil& s, const auto& row) {
     const float* __restrict rhs = f.data() + s.own;
     float* __restrict out = u.data() + s.own;
 #pragma omp simd
     for (int n = 0; n < s.count; ++n)
-      out[n] = (rhs[n] + row.neighbours(n)) * inverse[n];
-  }
+      out[n] = (rhs[n] + row.neighbours(n)) * row.inverse(n);
+  });
   for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row)
     u[row->place] = (f[row->place] + neighbour_sum(*row, u.data())) * row->inverse;
   exchange_.close_plane(u.data(), k, colour == 0 ? Colours::Red : Colours::Black);
@@ -208,17 +236,14 @@ void Level::relax_plane(int k, int colour)
 
 void Level::residual_plane(int k, int colour)
 {
-  for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
-    const Stencil s = stencil(j, k, colour);
-    const Faces c = faces(j, k);
-    const CleanRow row = clean_row(u.data(), s, c, left_, right_, width_);
+  for_rows(k, colour, u.data(), [this](const Stencil& s, const auto& row) {
     const float* __restrict rhs = f.data() + s.own;
     const float* __restrict own = u.data() + s.own;
     float* __restrict out = r.data() + s.own;
 #pragma omp simd
     for (int n = 0; n < s.count; ++n)
       out[n] = rhs[n] - row.image(n, own[n]);
-  }
+  });
   for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row)
     r[row->place] = f[row->place] - image(*row, u.data());
   exchange_.close_plane(r.data(), k, colour == 0 ? Colours::Red : Colours::Black);
@@ -228,9 +253,7 @@ double Level::apply_plane(int k, const float* p, float* q) const
 {
   double sum = 0.0;
   for (int colour = 0; colour < 2; ++colour) {
-    for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
-      const Stencil s = stencil(j, k, colour);
-      const CleanRow row = clean_row(p, s, faces(j, k), left_, right_, width_);
+    for_rows(k, colour, p, [&](const Stencil& s, const auto& row) {
       const float* __restrict own = p + s.own;
       float* __restrict out = q + s.own;
       float part = 0.0f;
@@ -241,7 +264,7 @@ double Level::apply_plane(int k, const float* p, float* q) const
         part += value * own[n];
       }
       sum += part;
-    }
+    });
     for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row) {
       const float value = image(*row, p);
       sum += static_cast<double>(p[row->place]) * (value - q[row->place]);
@@ -351,11 +374,13 @@ std::ptrdiff_t Level::place_beside(const Cuts&, const Index3& cell, int side, Un
   return layout_.index(c[0], c[1], c[2]);
 }
 
+/// Stored coefficients are rounded to single precision.
 bool Level::differs(const CutCell& cut) const
 {
+  const double round_off = stored_ != nullptr ? 1e-6 : 1e-9;
   for (int side = 0; side < 6; ++side) {
     const double clean = box_.coefficient(cut.cell, side);
-    if (std::abs(cut.coefficient[side] - clean) > 1e-9 * clean)
+    if (std::abs(cut.coefficient[side] - clean) > round_off * clean)
       return true;
   }
   return false;

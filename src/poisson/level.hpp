@@ -16,10 +16,14 @@ namespace luff::poisson {
 ///
 ///   (A u)_ijk = h_j h_k [ (u_i - u_i-1)/d_i + (u_i - u_i+1)/d_i+1 ] + h_i [ h_k (...)_j + h_j (...)_k ].
 ///
-/// Cells beside blocked faces and extra unknowns have explicit rows instead, applied after the clean ones.
+/// Where it is no such product (Kind::Stored), coefficients are read from memory.  Cells whose coefficients differ,
+/// most of them beside blocked faces, and extra unknowns have explicit rows instead, applied after the clean ones.
 class Level {
  public:
-  Level(const Box& box, const IndexBox& owned, const Neighbourhood* neighbourhood);
+  enum class Kind { Product, Stored };
+  Level(const Box& box, const IndexBox& owned, const Neighbourhood* neighbourhood, Kind kind = Kind::Product);
+  Level(const Level&) = delete;
+  Level& operator=(const Level&) = delete;
 
   [[nodiscard]] const Box& box() const { return box_; }
   [[nodiscard]] const Layout& layout() const { return layout_; }
@@ -28,6 +32,10 @@ class Level {
   [[nodiscard]] RowExchange& exchange() { return exchange_; }
   /// Colours that carry a residual after a black half sweep: red, or both where colours clash at an odd periodic seam.
   [[nodiscard]] Colours residual_colours() const { return residual_colours_; }
+
+  /// Coefficients of a level of Kind::Stored.
+  [[nodiscard]] StoredCoefficients& coefficients() { return *stored_; }
+  [[nodiscard]] const StoredCoefficients& coefficients() const { return *stored_; }
 
   /// Takes the explicit rows of this rank's cells and extras, and resizes the arrays.
   void set_cuts(const Cuts& cuts);
@@ -67,15 +75,12 @@ class Level {
     float grounded;  // coefficient to p = 0 beyond a Dirichlet side, where that is no halo cell
     float inverse;   // 1 / diagonal, 0 for an isolated cell
   };
-  struct Stencil {
-    std::ptrdiff_t own, left, right, j_low, j_high, k_low, k_high;
-    int parity, count;
-  };
   struct Faces {
     float row, j_low, j_high, k_low, k_high;
   };
   void make_tables();
-  [[nodiscard]] Stencil stencil(int j, int k, int colour) const;
+  template <class Work>
+  void for_rows(int k, int colour, const float* values, Work work) const;
   [[nodiscard]] Faces faces(int j, int k) const;
   void add_cell_row(const Cuts& cuts, const CutCell& cut);
   void add_extra_row(const Cuts& cuts, int e);
@@ -87,15 +92,16 @@ class Level {
   [[nodiscard]] float neighbour_sum(const Row& row, const float* values) const;
   [[nodiscard]] float image(const Row& row, const float* values) const;
 
-  Box box_;
   Layout layout_;
+  std::unique_ptr<StoredCoefficients> stored_;
+  Box box_;
   bool distributed_;
   const Neighbourhood* neighbourhood_;
   RowExchange exchange_;
   Colours residual_colours_;
-  std::array<std::vector<float>, 2> left_, right_, ends_, width_;  // along rows, per parity of i
-  std::array<std::vector<float>, 2> widths_, inverse_distances_;   // along j and k
-  std::vector<std::array<std::vector<float>, 2>> inverse_rows_;    // scratch of each thread
+  std::array<std::vector<float>, 2> left_, right_, ends_, width_;        // along rows, per parity of i
+  std::array<std::vector<float>, 2> widths_, inverse_distances_;         // along j and k
+  mutable std::vector<std::array<std::vector<float>, 2>> inverse_rows_;  // scratch of each thread
   int extras_ = 0;
   std::vector<int> owned_extras_;
   std::vector<Row> rows_;

@@ -65,11 +65,20 @@ IndexBox block_of(const Box& fine, const Box& coarse, const IndexBox& owned)
 
 }  // namespace
 
-Multigrid::Multigrid(Box box, const IndexBox& owned, const Neighbourhood& neighbourhood)
+Multigrid::Multigrid(const Box& box, const IndexBox& owned, const Neighbourhood& neighbourhood,
+                     const StoredCoefficients::Source& source)
+    : comm_(neighbourhood.comm)
 {
   const bool ranks = neighbourhood.split[1] || neighbourhood.split[2];
-  levels_.push_back(std::make_unique<Level>(box, owned, ranks ? &neighbourhood : nullptr));
+  const auto kind = source ? Level::Kind::Stored : Level::Kind::Product;
+  levels_.push_back(std::make_unique<Level>(box, owned, ranks ? &neighbourhood : nullptr, kind));
   add_levels(neighbourhood);
+  if (source) {
+    levels_[0]->coefficients().load(owned, source);
+    levels_[0]->coefficients().close(levels_[0]->exchange());
+    for (std::size_t l = 0; l < transfers_.size(); ++l)
+      coarsen_coefficients(l);
+  }
   set_blocked({});
 }
 
@@ -94,17 +103,103 @@ void Multigrid::add_levels(const Neighbourhood& neighbourhood)
       return;
     const bool share = fine.distributed() && cells > shared_cells && cells < before;
     const IndexBox block = share ? block_of(box, coarse, fine.layout().owned) : IndexBox{{0, 0, 0}, coarse.cells()};
-    levels_.push_back(std::make_unique<Level>(coarse, block, share ? &neighbourhood : nullptr));
+    const auto kind = stored() ? Level::Kind::Stored : Level::Kind::Product;
+    levels_.push_back(std::make_unique<Level>(coarse, block, share ? &neighbourhood : nullptr, kind));
     transfers_.push_back(std::make_unique<Transfer>(fine, *levels_.back(), std::move(merges)));
   }
 }
 
+namespace {
+
+/// A coarse coefficient is the sum of the fine ones of its face times fine over coarse distance.
+StoredCoefficients::Source sum_of_fine(const StoredCoefficients& fine, const std::array<Merge, 3>& merges)
+{
+  return [&fine, &merges](int axis, const Index3& C) {
+    Index3 lo, hi;
+    for (int a = 0; a < 3; ++a) {
+      lo[a] = merges[a].first[C[a]];
+      hi[a] = a == axis ? lo[a] + 1 : merges[a].first[C[a] + 1];
+    }
+    double sum = 0.0;
+    for (int k = lo[2]; k < hi[2]; ++k)
+      for (int j = lo[1]; j < hi[1]; ++j)
+        for (int i = lo[0]; i < hi[0]; ++i)
+          sum += fine.face(axis, {i, j, k});
+    return sum * merges[axis].scale[C[axis]];
+  };
+}
+
+}  // namespace
+
+/// Level l + 1 from level l, all of it.
+void Multigrid::coarsen_coefficients(std::size_t l)
+{
+  Level& fine = *levels_[l];
+  Level& coarse = *levels_[l + 1];
+  StoredCoefficients& coefficients = coarse.coefficients();
+  const bool gather = fine.distributed() && !coarse.distributed();
+  if (gather)
+    coefficients.clear();
+  const IndexBox own = gather ? block_of(fine.box(), coarse.box(), fine.layout().owned) : coarse.layout().owned;
+  coefficients.load(own, sum_of_fine(fine.coefficients(), transfers_[l]->merges()));
+  for (int a = 0; a < 3 && gather; ++a)
+    fine.sum_over_ranks(coefficients.values(a));
+  coefficients.close(coarse.exchange());
+}
+
+/// The same where fine coefficients changed; takes the fine faces and returns the coarse ones.
+void Multigrid::coarsen_coefficients(std::size_t l, std::vector<FaceIndex>& changed)
+{
+  const std::array<Merge, 3>& merges = transfers_[l]->merges();
+  std::vector<FaceIndex> coarse_faces;
+  for (const FaceIndex& f : changed) {
+    Index3 C;
+    bool on_coarse_face = true;
+    for (int a = 0; a < 3; ++a) {
+      const int n = static_cast<int>(merges[a].parent.size());
+      C[a] = f.cell[a] < n ? merges[a].parent[f.cell[a]] : static_cast<int>(merges[a].first.size()) - 1;
+      on_coarse_face = on_coarse_face && (a != f.axis || merges[a].first[C[a]] == f.cell[a]);
+    }
+    if (on_coarse_face)
+      coarse_faces.push_back({f.axis, C});
+  }
+  std::sort(coarse_faces.begin(), coarse_faces.end());
+  coarse_faces.erase(std::unique(coarse_faces.begin(), coarse_faces.end()), coarse_faces.end());
+  levels_[l + 1]->coefficients().load(coarse_faces, sum_of_fine(levels_[l]->coefficients(), merges));
+  levels_[l + 1]->coefficients().close(levels_[l + 1]->exchange());
+  changed = std::move(coarse_faces);
+}
+
+void Multigrid::update_coefficients(std::span<const FaceIndex> faces, const StoredCoefficients::Source& source)
+{
+  levels_[0]->coefficients().load(faces, source);
+  levels_[0]->coefficients().close(levels_[0]->exchange());
+  std::vector<FaceIndex> changed(faces.begin(), faces.end());
+  for (std::size_t l = 0; l < transfers_.size(); ++l)
+    if (product(levels_[l + 1]->box().cells()) > shared_cells)
+      coarsen_coefficients(l, changed);
+    else
+      coarsen_coefficients(l);
+}
+
+/// Cuts are the same on every rank, and so must be what they read of coefficients that other ranks hold.
+void Multigrid::share_cells_near_cuts(std::size_t l)
+{
+  if (stored() && levels_[l]->distributed())
+    levels_[l]->coefficients().share_cells(cells_near_cuts(cuts_[l], levels_[l + 1]->box(), transfers_[l]->merges()),
+                                           comm_);
+}
+
 void Multigrid::set_blocked(std::span<const FaceIndex> faces)
 {
+  if (stored() && levels_[0]->distributed())
+    levels_[0]->coefficients().share_cells(cells_beside(levels_[0]->box(), faces), comm_);
   cuts_.clear();
   cuts_.push_back(cuts_of_blocked_faces(levels_[0]->box(), faces));
-  for (std::size_t l = 0; l < transfers_.size(); ++l)
+  for (std::size_t l = 0; l < transfers_.size(); ++l) {
+    share_cells_near_cuts(l);
     cuts_.push_back(coarsen_cuts(cuts_[l], levels_[l]->box(), levels_[l + 1]->box(), transfers_[l]->merges()));
+  }
   for (std::size_t l = 0; l < levels_.size(); ++l)
     levels_[l]->set_cuts(cuts_[l]);
   for (std::size_t l = 0; l < transfers_.size(); ++l)

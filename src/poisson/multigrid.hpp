@@ -17,9 +17,13 @@ namespace luff::poisson {
 /// The finest levels are shared out among ranks; from the first small one on, every rank works on the whole.
 class Multigrid {
  public:
-  /// The finest level covers `owned` of `box`.
-  Multigrid(Box box, const IndexBox& owned, const Neighbourhood& neighbourhood);
+  /// The finest level covers `owned` of `box`.  Its coefficients are products of the box's tables, or stored ones if
+  /// there is a source of them.
+  Multigrid(const Box& box, const IndexBox& owned, const Neighbourhood& neighbourhood,
+            const StoredCoefficients::Source& source = {});
 
+  /// Stored coefficients of some faces of this rank changed on the finest level.  Then set_blocked().  Collective.
+  void update_coefficients(std::span<const FaceIndex> faces, const StoredCoefficients::Source& source);
   /// Takes the blocked faces of the whole domain, the same on every rank.
   void set_blocked(std::span<const FaceIndex> faces);
 
@@ -38,11 +42,16 @@ class Multigrid {
 
  private:
   void add_levels(const Neighbourhood& neighbourhood);
+  [[nodiscard]] bool stored() const { return levels_.front()->box().stored != nullptr; }
+  void coarsen_coefficients(std::size_t l);
+  void coarsen_coefficients(std::size_t l, std::vector<FaceIndex>& changed);
+  void share_cells_near_cuts(std::size_t l);
   void cycle(std::size_t l, const PlaneWork& after);
   void smooth_from_zero(Level& level);
   void smooth(Level& level, Transfer& correction, const PlaneWork& after);
   void solve_coarsest(const PlaneWork& after);
 
+  MPI_Comm comm_;
   std::vector<std::unique_ptr<Level>> levels_;
   std::vector<std::unique_ptr<Transfer>> transfers_;
   std::vector<Cuts> cuts_;

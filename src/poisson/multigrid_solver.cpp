@@ -42,17 +42,21 @@ std::vector<FaceIndex> gather_faces(MPI_Comm comm, const std::vector<FaceIndex>&
 
 MultigridSolver::MultigridSolver(const grid::Grid& grid, const SideConditions& sides)
     : grid_(grid),
+      sides_(sides),
       axis_(longest_last(grid.cells())),
       unit_(grid.smallest_width()),
       neighbourhood_(neighbourhood()),
-      multigrid_(make_box(sides), IndexBox{internal(grid.owned().lo), internal(grid.owned().hi)}, neighbourhood_),
-      inner_(multigrid_, grid.ranks().comm()),
-      fluxes_(grid, sides),
+      fluxes_(make_fluxes(sides)),
+      multigrid_(make_box(sides), IndexBox{internal(grid.owned().lo), internal(grid.owned().hi)}, neighbourhood_,
+                 coefficient_source()),
       halo_(grid.ranks()),
       net_(grid.owned()),
       correction_(grid.owned())
 {
   flush_denormals();
+  if (curvilinear_ != nullptr)
+    make_cross_terms();
+  inner_ = std::make_unique<ConjugateGradients>(multigrid_, cross_terms_.get(), grid.ranks().comm());
   label_components();
 }
 
@@ -69,17 +73,89 @@ Neighbourhood MultigridSolver::neighbourhood() const
   return result;
 }
 
+std::unique_ptr<FluxCorrection> MultigridSolver::make_fluxes(const SideConditions& sides)
+{
+  if (grid_.kind() != grid::Kind::Curvilinear)
+    return make_flux_correction(grid_, sides);
+  auto fluxes = std::make_unique<CurvilinearCorrection>(grid_, sides);
+  curvilinear_ = fluxes.get();
+  return fluxes;
+}
+
+/// Means of V/S_a over the cells of every index along a direction, S_a the larger of the two areas.
+std::vector<double> MultigridSolver::mean_widths(int axis) const
+{
+  const Index3& n = grid_.cells();
+  std::vector<double> h(n[axis], 0.0);
+  for_each_cell_in_order(grid_.owned(), [&](int i, int j, int k) {
+    const Index3 high = stepped({i, j, k}, axis, 1);
+    const double area = std::max(grid_.area(axis, i, j, k), grid_.area(axis, high[0], high[1], high[2]));
+    h[Index3{i, j, k}[axis]] += grid_.volume(i, j, k) / area;
+  });
+  MPI_Allreduce(MPI_IN_PLACE, h.data(), n[axis], MPI_DOUBLE, MPI_SUM, grid_.ranks().comm());
+  const double cells = static_cast<double>(n[0]) * n[1] * n[2] / n[axis];
+  for (double& width : h)
+    width /= cells;
+  return h;
+}
+
 Box MultigridSolver::make_box(const SideConditions& sides) const
 {
   Box box;
   for (int a = 0; a < 3; ++a) {
     const int axis = axis_[a];
     std::vector<double> h;
-    for (int i = 0; i < grid_.cells()[axis]; ++i)
-      h.push_back(grid_.width(axis, i) / unit_);
+    if (curvilinear_ != nullptr)
+      h = mean_widths(axis);
+    for (int i = 0; i < grid_.cells()[axis] && curvilinear_ == nullptr; ++i)
+      h.push_back(grid_.width(axis, i));
+    for (double& width : h)
+      width /= unit_;
     box.lines[a] = make_line(std::move(h), grid_.ranks().periodic(axis), sides[axis], grid_.ranks().splits(axis));
   }
   return box;
+}
+
+/// a_f; twice that on Dirichlet sides, where the difference is to p = 0 on the side rather than to its mirror image.
+StoredCoefficients::Source MultigridSolver::coefficient_source() const
+{
+  if (curvilinear_ == nullptr)
+    return {};
+  return [this, face = curvilinear_->gradient().face()](int a, const Index3& c) {
+    const int axis = axis_[a];
+    const bool end = c[a] == 0 || c[a] == grid_.cells()[axis];
+    const double sides = end && !grid_.ranks().periodic(axis) ? 2.0 : 1.0;
+    return sides * face[axis](internal(c)) / unit_;
+  };
+}
+
+void MultigridSolver::make_cross_terms()
+{
+  cross_terms_ = std::make_unique<CrossTerms>(multigrid_.finest());
+  cross_terms_->load(multigrid_.finest().layout().owned, cross_source());
+  cross_terms_->close();
+}
+
+/// Cross terms in the order of the multigrid's axes: exchanging y and z exchanges the pairs (x, y) and (x, z).
+CrossTerms::Source MultigridSolver::cross_source() const
+{
+  return [this, cross = curvilinear_->gradient().cross()](int pair, const Index3& c) {
+    const bool exchanged = axis_[1] == 2 && pair < 2;
+    return cross[exchanged ? 1 - pair : pair](internal(c)) / unit_;
+  };
+}
+
+/// Coefficients that the blocked faces changed.
+void MultigridSolver::update_operator()
+{
+  CurvilinearOperator::Changes changes = curvilinear_->changes();
+  for (FaceIndex& face : changes.faces)
+    face = internal(face);
+  for (Index3& cell : changes.cells)
+    cell = internal(cell);
+  multigrid_.update_coefficients(changes.faces, coefficient_source());
+  cross_terms_->load(changes.cells, cross_source());
+  cross_terms_->close();
 }
 
 void MultigridSolver::set_blocked(std::span<const FaceIndex> faces)
@@ -90,12 +166,12 @@ void MultigridSolver::set_blocked(std::span<const FaceIndex> faces)
   if (grid_.ranks().max(sorted == blocked_ ? 0.0 : 1.0) == 0.0)
     return;
   blocked_ = std::move(sorted);
-  fluxes_.set_blocked(blocked_);
+  fluxes_->set_blocked(blocked_);
+  if (curvilinear_ != nullptr)
+    update_operator();
   std::vector<FaceIndex> all = gather_faces(grid_.ranks().comm(), blocked_);
-  for (FaceIndex& face : all) {
-    face.cell = internal(face.cell);
-    face.axis = face.axis == 0 ? 0 : axis_[face.axis];
-  }
+  for (FaceIndex& face : all)
+    face = internal(face);
   multigrid_.set_blocked(all);
   label_components();
 }
@@ -127,25 +203,21 @@ void MultigridSolver::remove_means(const View<double>& values, bool by_volume) c
 std::vector<double> MultigridSolver::mean_of_all(const View<const double>& values, bool by_volume) const
 {
   const IndexBox& box = grid_.owned();
-  std::vector<double> width(box.extent(0), 1.0);
-  for (int i = 0; by_volume && i < box.extent(0); ++i)
-    width[i] = grid_.width(0, i);
-  const double row_width = std::accumulate(width.begin(), width.end(), 0.0);
-  std::vector<double> partial(static_cast<std::size_t>(box.extent(1)) * box.extent(2));
-  const auto area = [&](int j, int k) { return by_volume ? grid_.width(1, j) * grid_.width(2, k) : 1.0; };
-  for_each_row(box, [&](int begin, int end, int j, int k) {
-    const double* __restrict row = values.row(j, k);
-    const double* __restrict w = width.data();
-    double sum = 0.0;
-#pragma omp simd reduction(+ : sum)
-    for (int i = begin; i < end; ++i)
-      sum += w[i] * row[i];
-    partial[static_cast<std::size_t>(k - box.lo[2]) * box.extent(1) + (j - box.lo[1])] = sum * area(j, k);
-  });
-  std::array<double, 2> sums{std::accumulate(partial.begin(), partial.end(), 0.0), 0.0};
-  for (int k = box.lo[2]; k < box.hi[2]; ++k)
-    for (int j = box.lo[1]; j < box.hi[1]; ++j)
-      sums[1] += row_width * area(j, k);
+  std::array<double, 2> sums{};
+  if (!by_volume) {
+    sums = {sum_cells(box, [=](int i, int j, int k) { return values(i, j, k); }), static_cast<double>(box.volume())};
+  } else {
+    grid_.visit([&](const auto& metric) {
+      const auto volume = [metric](int i, int j, int k) {
+        if constexpr (grid::is_curvilinear<std::decay_t<decltype(metric)>>)
+          return metric.V(i, j, k);
+        else
+          return metric.volume(i, j, k);
+      };
+      sums[0] = sum_cells(box, [=](int i, int j, int k) { return volume(i, j, k) * values(i, j, k); });
+      sums[1] = sum_cells(box, [=](int i, int j, int k) { return volume(i, j, k); });
+    });
+  }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, grid_.ranks().comm());
   return {sums[0] / sums[1]};
 }
@@ -184,7 +256,7 @@ std::size_t MultigridSolver::component_of(const Index3& cell) const
 void MultigridSolver::load_row(int j, int k, const double* values, double shift, double scale)
 {
   Level& level = multigrid_.finest();
-  const Index3 c = internal({0, j, k});
+  const Index3 c = internal(Index3{0, j, k});
   for (int q = 0; q < 2; ++q) {
     float* __restrict f = level.f.data() + level.layout().start(c[1], c[2], (q + j + k) & 1);
     const double* __restrict row = values;
@@ -198,9 +270,9 @@ void MultigridSolver::load_row(int j, int k, const double* values, double shift,
 void MultigridSolver::unload_row(int j, int k)
 {
   const Layout& layout = multigrid_.finest().layout();
-  const Index3 c = internal({0, j, k});
-  const float* __restrict even = inner_.solution().data() + layout.start(c[1], c[2], (j + k) & 1);
-  const float* __restrict odd = inner_.solution().data() + layout.start(c[1], c[2], (j + k + 1) & 1);
+  const Index3 c = internal(Index3{0, j, k});
+  const float* __restrict even = inner_->solution().data() + layout.start(c[1], c[2], (j + k) & 1);
+  const float* __restrict odd = inner_->solution().data() + layout.start(c[1], c[2], (j + k + 1) & 1);
   float* __restrict to = correction_.view().row(j, k);
   const int n = grid_.cells()[0];
 #pragma omp simd
@@ -210,22 +282,46 @@ void MultigridSolver::unload_row(int j, int k)
   }
   if (n % 2 == 1)
     to[n - 1] = even[n / 2];
+  const auto beyond = [&](int side, float same, float other_end) {
+    return grid_.ranks().periodic(0) ? other_end : sides_[0][side] == SideCondition::Dirichlet ? -same : 0.0f;
+  };
+  to[-1] = beyond(0, to[0], to[n - 1]);
+  to[n] = beyond(1, to[n - 1], to[0]);
+}
+
+/// A row of the correction beyond a Dirichlet side mirrors the one inside.
+void MultigridSolver::mirror_row(int axis, int j, int k)
+{
+  const Index3 cell{0, j, k};
+  const int side = cell[axis] < 0 ? 0 : 1;
+  const bool beyond = cell[axis] < 0 || cell[axis] == grid_.cells()[axis];
+  if (!beyond || grid_.ranks().periodic(axis) || sides_[axis][side] != SideCondition::Dirichlet)
+    return;
+  const Index3 inside = stepped(cell, axis, side == 0 ? 1 : -1);
+  const float* from = correction_.view().row(inside[1], inside[2]);
+  float* to = correction_.view().row(j, k);
+  for (int i = -1; i <= grid_.cells()[0]; ++i)
+    to[i] = -from[i];
 }
 
 /// The correction on plane t along the outer axis, halo rows included, and its part in the pressure.
 void MultigridSolver::unload_plane(int t, const View<double>& p, double to_pressure)
 {
   const IndexBox& owned = grid_.owned();
-  const int outer = fluxes_.outer_axis();
+  const int outer = fluxes_->outer_axis();
   const int inner = 3 - outer;
-  const auto unload = [&](int b, int plane) { outer == 2 ? unload_row(b, plane) : unload_row(plane, b); };
-  for (int b = owned.lo[inner] - 1; b <= owned.hi[inner]; ++b) {
-    unload(b, t);
-    if (t == owned.lo[outer])
-      unload(b, t - 1);
-    if (t == owned.hi[outer] - 1)
-      unload(b, t + 1);
-  }
+  const int first = t == owned.lo[outer] ? t - 1 : t;
+  const int last = t == owned.hi[outer] - 1 ? t + 1 : t;
+  const auto for_rows = [&](int b, int plane, auto work) { outer == 2 ? work(b, plane) : work(plane, b); };
+  for (int plane = first; plane <= last; ++plane)
+    for (int b = owned.lo[inner] - 1; b <= owned.hi[inner]; ++b)
+      for_rows(b, plane, [&](int j, int k) { unload_row(j, k); });
+  for (int plane = first; plane <= last; ++plane)
+    for (const int b : {owned.lo[inner] - 1, owned.hi[inner]})
+      for_rows(b, plane, [&](int j, int k) { mirror_row(inner, j, k); });
+  for (const int plane : {first, last})
+    for (int b = owned.lo[inner] - 1; b <= owned.hi[inner]; ++b)
+      for_rows(b, plane, [&](int j, int k) { mirror_row(outer, j, k); });
   for (int b = owned.lo[inner]; b < owned.hi[inner]; ++b) {
     const int j = outer == 2 ? b : t;
     const int k = outer == 2 ? t : b;
@@ -274,7 +370,7 @@ double MultigridSolver::inner_tolerance(const Outflow& outflow, double initial_n
 void MultigridSolver::subtract_gradient(const View3<double>& U, const View<double>& p, double dt)
 {
   halo_.exchange({p});
-  fluxes_.subtract<double>(U, p, dt);
+  fluxes_->subtract(U, p, dt);
 }
 
 Report MultigridSolver::project(const View3<double>& U, const View<double>& p, double dt, const Target& target)
@@ -283,9 +379,10 @@ Report MultigridSolver::project(const View3<double>& U, const View<double>& p, d
   const auto to_net = [&](int j, int k, const double* outflow) {
     std::transform(outflow, outflow + grid_.cells()[0], net_.view().row(j, k), std::negate<>());
   };
-  const double initial_norm = target.relative > 0.0 ? fluxes_.measure(U, ignore).norm : 0.0;
+  const double initial_norm = target.relative > 0.0 ? fluxes_->measure(U, ignore).norm : 0.0;
   halo_.exchange({p});
-  Outflow outflow = fluxes_.correct<double>(
+  const SidePressure given(grid_, sides_, p);
+  Outflow outflow = fluxes_->correct<double>(
       U, p, dt, [](int) {}, to_net);
   double norm = std::isfinite(outflow.norm) ? load_right_hand_side(outflow) : outflow.norm;
   Report report;
@@ -295,13 +392,13 @@ Report MultigridSolver::project(const View3<double>& U, const View<double>& p, d
     // digit is always worth trying, and what it does not improve is taken back.
     const double round_off = 0.5 * std::numeric_limits<double>::epsilon() * outflow.flux_norm;
     const double tolerance = std::max(std::min(0.1, round_off / norm), inner_tolerance(outflow, initial_norm, target));
-    const auto inner = inner_.solve(tolerance, target.max_iterations - report.iterations);
+    const auto inner = inner_->solve(tolerance, target.max_iterations - report.iterations);
     report.iterations += inner.iterations;
     if (!inner.finite)
       break;
     const double factor = 1.0 / (scale_ * unit_);
     const auto add = [&](double sign, const FluxCorrection::RowSink& sink) {
-      return fluxes_.correct<float>(
+      return fluxes_->correct<float>(
           U, std::as_const(correction_).view(), sign * factor, [&](int t) { unload_plane(t, p, sign * factor / dt); },
           sink);
     };
@@ -316,6 +413,7 @@ Report MultigridSolver::project(const View3<double>& U, const View<double>& p, d
     norm = corrected_norm;
   }
   remove_means(p, /*by_volume=*/true);
+  given.restore(p);
   halo_.exchange({p});
   report.divergence = relative_divergence(outflow, target);
   report.worst_cell = outflow.worst_cell;

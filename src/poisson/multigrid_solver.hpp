@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "poisson/conjugate_gradients.hpp"
-#include "poisson/flux_correction.hpp"
+#include "poisson/curvilinear_correction.hpp"
 #include "poisson/pressure_solver.hpp"
 
 namespace luff::poisson {
@@ -24,8 +24,15 @@ class MultigridSolver final : public PressureSolver {
 
  private:
   [[nodiscard]] Index3 internal(const Index3& c) const { return {c[0], c[axis_[1]], c[axis_[2]]}; }
+  [[nodiscard]] FaceIndex internal(const FaceIndex& f) const { return {axis_[f.axis], internal(f.cell)}; }
   [[nodiscard]] Neighbourhood neighbourhood() const;
+  [[nodiscard]] std::unique_ptr<FluxCorrection> make_fluxes(const SideConditions& sides);
   [[nodiscard]] Box make_box(const SideConditions& sides) const;
+  [[nodiscard]] std::vector<double> mean_widths(int axis) const;
+  [[nodiscard]] StoredCoefficients::Source coefficient_source() const;
+  [[nodiscard]] CrossTerms::Source cross_source() const;
+  void make_cross_terms();
+  void update_operator();
   void label_components();
   [[nodiscard]] std::size_t component_of(const Index3& cell) const;
   [[nodiscard]] std::vector<double> means(const View<const double>& values, bool by_volume) const;
@@ -34,16 +41,20 @@ class MultigridSolver final : public PressureSolver {
   void load_row(int j, int k, const double* values, double shift, double scale);
   double load_right_hand_side(const Outflow& outflow);
   void unload_row(int j, int k);
+  void mirror_row(int axis, int j, int k);
   void unload_plane(int t, const View<double>& p, double to_pressure);
   [[nodiscard]] double inner_tolerance(const Outflow& outflow, double initial_norm, const Target& target) const;
 
   const grid::Grid& grid_;
+  SideConditions sides_;
   Index3 axis_;  // grid axis of each axis of the multigrid: the longer of y and z comes last
   double unit_;  // smallest width
   Neighbourhood neighbourhood_;
+  CurvilinearCorrection* curvilinear_ = nullptr;  // fluxes_ on curvilinear grids
+  std::unique_ptr<FluxCorrection> fluxes_;
   Multigrid multigrid_;
-  ConjugateGradients inner_;
-  FluxCorrection fluxes_;
+  std::unique_ptr<CrossTerms> cross_terms_;  // on curvilinear grids
+  std::unique_ptr<ConjugateGradients> inner_;
   HaloExchange halo_;
   Field<double> net_;  // minus the net outflow
   Field<float> correction_;

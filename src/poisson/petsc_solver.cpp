@@ -64,7 +64,7 @@ class PetscSolver final : public PressureSolver {
   PetscSolver(const grid::Grid& grid, const SideConditions& sides)
       : grid_(grid),
         sides_(sides),
-        fluxes_(grid, sides),
+        fluxes_(make_flux_correction(grid, sides)),
         halo_(grid.ranks()),
         number_(grid.owned(), -1),
         component_(grid.owned(), -1),
@@ -83,7 +83,7 @@ class PetscSolver final : public PressureSolver {
     if (grid_.ranks().max(sorted == blocked_ ? 0.0 : 1.0) == 0.0)
       return;
     blocked_ = std::move(sorted);
-    fluxes_.set_blocked(blocked_);
+    fluxes_->set_blocked(blocked_);
     rebuild();
   }
 
@@ -108,7 +108,7 @@ class PetscSolver final : public PressureSolver {
 
   const grid::Grid& grid_;
   SideConditions sides_;
-  FluxCorrection fluxes_;
+  std::unique_ptr<FluxCorrection> fluxes_;
   HaloExchange halo_;
   Field<int> number_;     // row of the matrix, halo included; -1 beyond the domain
   Field<int> component_;  // smallest row of the component; -1 beyond the domain
@@ -280,13 +280,14 @@ int PetscSolver::solve(double scale, int max_iterations)
   for_owned(grid_.owned(), [&, n = 0](const Index3& c) mutable { correction_(c[0], c[1], c[2]) = values[n++]; });
   check(VecRestoreArray(solution_, &values));
   halo_.exchange({correction_.view()});
+  mirror_beyond_sides(grid_, sides_, correction_.view());
   return static_cast<int>(iterations);
 }
 
 void PetscSolver::subtract_gradient(const View3<double>& U, const View<double>& p, double dt)
 {
   halo_.exchange({p});
-  fluxes_.subtract<double>(U, p, dt);
+  fluxes_->subtract(U, p, dt);
 }
 
 Report PetscSolver::project(const View3<double>& U, const View<double>& p, double dt, const Target& target)
@@ -295,19 +296,20 @@ Report PetscSolver::project(const View3<double>& U, const View<double>& p, doubl
   const auto to_net = [&](int j, int k, const double* outflow) {
     std::transform(outflow, outflow + grid_.cells()[0], net_.view().row(j, k), std::negate<>());
   };
-  const double initial_norm = target.relative > 0.0 ? fluxes_.measure(U, to_net).norm : 0.0;
+  const double initial_norm = target.relative > 0.0 ? fluxes_->measure(U, to_net).norm : 0.0;
   halo_.exchange({p});
-  Outflow outflow = fluxes_.correct<double>(U, p, dt, nothing, to_net);
+  const SidePressure given(grid_, sides_, p);
+  Outflow outflow = fluxes_->correct<double>(U, p, dt, nothing, to_net);
   Report report;
   while (!meets(outflow, initial_norm, target) && report.iterations < target.max_iterations &&
          std::isfinite(outflow.norm)) {
     const double scale = 1.0 / outflow.norm;
     report.iterations += solve(scale, target.max_iterations - report.iterations);
     const View<const double> e = std::as_const(correction_).view();
-    const Outflow corrected = fluxes_.correct<double>(U, e, 1.0 / scale, nothing, to_net);
+    const Outflow corrected = fluxes_->correct<double>(U, e, 1.0 / scale, nothing, to_net);
     ++report.refinements;
     if (!(corrected.norm < 0.9 * outflow.norm)) {
-      outflow = fluxes_.correct<double>(U, e, -1.0 / scale, nothing, to_net);
+      outflow = fluxes_->correct<double>(U, e, -1.0 / scale, nothing, to_net);
       break;
     }
     outflow = corrected;
@@ -315,6 +317,7 @@ Report PetscSolver::project(const View3<double>& U, const View<double>& p, doubl
     for_each_cell(grid_.owned(), [=](int i, int j, int k) { p(i, j, k) += to_pressure * e(i, j, k); });
   }
   remove_means(p);
+  given.restore(p);
   halo_.exchange({p});
   report.divergence = relative_divergence(outflow, target);
   report.worst_cell = outflow.worst_cell;

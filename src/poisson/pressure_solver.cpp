@@ -12,8 +12,11 @@ std::unique_ptr<PressureSolver> make_pressure_solver(const grid::Grid& grid, con
 {
   if (options.kind == "multigrid")
     return std::make_unique<MultigridSolver>(grid, sides);
-  if (options.kind == "petsc")
+  if (options.kind == "petsc") {
+    if (grid.kind() == grid::Kind::Curvilinear)
+      fail_input("pressure.solver = \"petsc\" does not know curvilinear grids: choose \"multigrid\"");
     return make_petsc_solver(grid, sides);
+  }
   fail_input("pressure.solver = \"{}\" is not known: choose \"multigrid\" or \"petsc\"", options.kind);
 }
 

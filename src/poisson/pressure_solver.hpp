@@ -12,7 +12,7 @@
 
 namespace luff::poisson {
 
-/// What holds on a side of the domain: p_n = 0 (walls, prescribed velocity, symmetry) or p = 0 on the face (outflow).
+/// What holds on a side of the domain: p_n = 0 (walls, prescribed velocity, symmetry) or p = g on the face (outflow).
 /// Periodic sides come from the grid; what is given for them is not read.
 enum class SideCondition { Neumann, Dirichlet };
 /// Indexed [axis][0 low, 1 high].
@@ -49,8 +49,10 @@ struct Report {
 /// The gradient through a face of area A between cells P and N, whose centres are d apart, is
 ///
 ///   (G p) = A (p_N - p_P) / d          on open faces
-///   (G p) = A (0 - p_P) / (h_P / 2)    on a high Dirichlet side; A (p_P - 0) / (h_P / 2) on a low one
-///   (G p) = 0                          on blocked faces and Neumann sides.
+///   (G p) = A (g - p_P) / (h_P / 2)    on a high Dirichlet side; A (p_P - g) / (h_P / 2) on a low one
+///   (G p) = 0                          on blocked faces and Neumann sides,
+///
+/// g the pressure given there; on curvilinear grids it is the one of CurvilinearOperator.
 ///
 /// Calls are collective over the grid's ranks.  Ranks that share a face end with the same bits of flux there, and any
 /// number of threads gives the same bits everywhere.
@@ -66,13 +68,17 @@ class PressureSolver {
   /// U <- U - dt G p with net outflow zero from every cell.
   ///
   /// On entry U = U* on all faces of owned cells (volume fluxes, low-face convention) and p is the first guess in owned
-  /// cells.  On return p solves div(G p) = div(U*)/dt, its halo filled by exchange (halo cells beyond the sides of the
-  /// domain are left alone), and U holds the corrected fluxes on all faces of owned cells.
-  /// Where no pressure is prescribed, p has zero mean over each connected part of the fluid.
+  /// cells.  Its halo beyond Dirichlet sides tells the pressure given there, which is the mean of p in the cell inside
+  /// and in the one beyond: p_beyond = 2 g - p_inside.
+  /// On return p solves div(G p) = div(U*)/dt, its halo is filled by exchange and, beyond Dirichlet sides, so that the
+  /// means stay as they were (beyond other sides it is left alone), and U holds the corrected fluxes on all faces of
+  /// owned cells.
+  /// Where no pressure is prescribed, p has zero mean over each connected part of the fluid; in isolated cells, whose
+  /// faces are all blocked, p = 0, and what flows into them does not count.
   virtual Report project(const View3<double>& U, const View<double>& p, double dt, const Target& target) = 0;
 
   /// U <- U - dt G p on all faces of owned cells, with the G of project(), for a p that is known.  The halo of p is
-  /// filled by exchange.
+  /// filled by exchange; beyond Dirichlet sides it tells the pressure there, as for project().
   virtual void subtract_gradient(const View3<double>& U, const View<double>& p, double dt) = 0;
 };
 

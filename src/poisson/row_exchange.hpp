@@ -26,19 +26,26 @@ struct Neighbourhood {
   std::array<bool, 3> split{};  ///< several blocks in line along an axis
 };
 
-/// Fills the halos of one level.  Faces only: edges and corners of the halo are never read.
+/// Fills the halos of one level: of faces only where edges and corners of the halo are not read.
 class RowExchange {
  public:
   RowExchange(const Layout& layout, const std::array<Line, 3>& lines, const Neighbourhood* neighbourhood);
 
   /// Nothing to do between planes of one rank: stages of work may overlap from plane to plane.
   [[nodiscard]] bool within_planes() const { return !any_rank_ && !wraps_[2]; }
-  /// Periodic seams inside plane k: along rows, and along j where one rank holds the whole axis.
+  /// Periodic seams inside plane k: along rows, and along j where one rank holds the whole axis, edges included.
   void close_plane(float* values, int k, Colours colours) const;
   /// The seams across planes and what other ranks hold.  Collective.
   void exchange(float* values, Colours colours);
+  /// All seams and what other ranks hold, of both colours, edges of the halo and cells beyond the ends of its rows
+  /// included.  Collective.
+  void exchange_with_edges(float* values);
 
  private:
+  void close_row(float* values, int j, int k) const;
+  void exchange_rows_along(int axis, float* values);
+  float* pack_whole(const float* values, const IndexBox& rows, float* out) const;
+  void unpack_whole(float* values, const IndexBox& rows, bool flips, const float* in) const;
   void copy_row(float* values, int j_from, int k_from, int j_to, int k_to, Colours colours) const;
   float* pack(const float* values, int axis, int index, Colours colours, float* out) const;
   void unpack(float* values, int axis, int index, bool flips, Colours colours, const float* in) const;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cross terms of the pressure operator on curvilinear grids, in single precision and the layout of a level.
+#pragma once
+
+#include "poisson/level.hpp"
+
+namespace luff::poisson {
+
+/// Adds to the 7-point operator of a level of stored coefficients what CurvilinearOperator has beyond it,
+///
+///   sum over faces outwards of -(w_a(L) + w_a(R))/2,   w_a = sum_{b != a} g_ab <d_b>.
+class CrossTerms {
+ public:
+  explicit CrossTerms(Level& level);
+
+  /// g_ab of the cells of `box`, or of some, in the order of cross_pairs; then close() them.
+  using Source = std::function<double(int pair, const Index3& cell)>;
+  void load(const IndexBox& box, const Source& source);
+  void load(std::span<const Index3> cells, const Source& source);
+  /// Those of cells beyond the edges of this rank's block.  Collective.
+  void close();
+
+  /// w on plane k, from values with halo, edges included; across the edges of the block too.
+  void prepare_plane(int k, const float* values);
+  /// q += cross terms on plane k, from w on planes k - 1 ... k + 1; returns the sum of p times what was added.
+  double apply_plane(int k, const float* p, float* q) const;
+
+ private:
+  /// What lies beyond the block at both ends of an axis.
+  enum class Beyond { Cells, Wall, Pressure };
+  void cross_row(int j, int k, int colour, const float* values);
+  void cross_row_across(int axis, int j, int k, int colour, const float* values);
+  void add_ends(int j, int k, const float* values);
+  void close_row(int j, int k);
+  /// Differences to p = 0 on a side are twice those to the value beyond, which is zero.
+  [[nodiscard]] float half(int axis, int side, int index) const;
+  [[nodiscard]] std::ptrdiff_t beside(const Stencil& s, int axis, int side, int index) const;
+
+  Level& level_;
+  Layout layout_;
+  Index3 cells_{};
+  std::array<std::array<Beyond, 2>, 3> beyond_{};
+  std::array<Values, 3> g_;
+  std::array<Values, 3> w_;
+};
+
+}  // namespace luff::poisson

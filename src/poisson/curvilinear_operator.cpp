@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "poisson/curvilinear_operator.hpp"
+
+#include <algorithm>
+
+namespace luff::poisson {
+
+CurvilinearOperator::CurvilinearOperator(const Decomposition& ranks, const View<const double> (&G)[6],
+                                         const SideConditions& sides)
+    : ranks_(ranks),
+      sides_(sides),
+      halo_(ranks),
+      closed_(ranks.owned()),
+      normal_(make_field3<double>(ranks.owned())),
+      face_(make_field3<double>(ranks.owned())),
+      cross_(make_field3<double>(ranks.owned()))
+{
+  std::copy(std::begin(G), std::end(G), G_.begin());
+  close_sides();
+  for_each_cell_in_order(ranks_.owned(), [&](int i, int j, int k) { close_cell({i, j, k}); });
+  halo_.exchange(views(normal_));
+  halo_.exchange(views(cross_));
+  for (int a = 0; a < 3; ++a) {
+    IndexBox box = ranks_.owned();
+    box.hi[a] += ranks_.at_boundary(a, 1) ? 1 : 0;
+    for_each_cell_in_order(box, [&](int i, int j, int k) { set_face({a, {i, j, k}}); });
+  }
+  halo_.exchange(views(face_));
+}
+
+/// Neumann sides, and both faces of a single periodic cell, which is its own neighbour.
+void CurvilinearOperator::close_sides()
+{
+  const Index3& n = ranks_.cells();
+  for_each_cell_in_order(ranks_.owned(), [&](int i, int j, int k) {
+    const Index3 c{i, j, k};
+    unsigned bits = 0;
+    for (int a = 0; a < 3; ++a)
+      for (int side = 0; side < 2; ++side) {
+        const bool at_end = c[a] == (side == 0 ? 0 : n[a] - 1);
+        const bool shut = ranks_.periodic(a) ? n[a] == 1 : at_end && sides_[a][side] == SideCondition::Neumann;
+        bits |= shut ? 1u << (2 * a + side) : 0u;
+      }
+    closed_(i, j, k) = static_cast<operators::ClosedFaces>(bits);
+  });
+}
+
+bool CurvilinearOperator::on_side(const FaceIndex& f) const
+{
+  return !ranks_.periodic(f.axis) && (f.cell[f.axis] == 0 || f.cell[f.axis] == ranks_.cells()[f.axis]);
+}
+
+void CurvilinearOperator::set_blocked_bits(std::span<const FaceIndex> faces, bool blocked, std::vector<Index3>& touched)
+{
+  const auto set = [&](const Index3& c, int bit) {
+    if (!ranks_.owned().contains(c))
+      return;
+    unsigned bits = closed_.view()(c);
+    bits = blocked ? bits | 1u << bit : bits & ~(1u << bit);
+    closed_.view()(c) = static_cast<operators::ClosedFaces>(bits);
+    touched.push_back(c);
+  };
+  for (const FaceIndex& f : faces) {
+    if (on_side(f) && sides_[f.axis][f.cell[f.axis] == 0 ? 0 : 1] == SideCondition::Neumann)
+      continue;
+    Index3 high = f.cell;
+    Index3 low = stepped(f.cell, f.axis, -1);
+    if (const int n = ranks_.cells()[f.axis]; ranks_.periodic(f.axis)) {
+      if (n == 1)
+        continue;
+      high[f.axis] %= n;
+      low[f.axis] = (low[f.axis] + n) % n;
+    }
+    set(high, 2 * f.axis);
+    set(low, 2 * f.axis + 1);
+  }
+}
+
+/// Coefficients of one owned cell from its tensor and its closed faces.
+void CurvilinearOperator::close_cell(const Index3& c)
+{
+  const operators::ClosedFaces closed = closed_.view()(c);
+  const auto g = [&](int a, int b) { return G_[a < b ? grid::symmetric(a, b) : grid::symmetric(b, a)](c); };
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3;
+    const int e = (a + 2) % 3;
+    normal_[a].view()(c) =
+        operators::closed_normal(g(a, a), g(a, b), g(a, e), g(b, b), g(b, e), g(e, e),
+                                 operators::closed_half(closed, b), operators::closed_half(closed, e));
+    cross_[pair_without(a)].view()(c) =
+        operators::closed_cross(g(b, e), g(a, b), g(a, e), g(a, a), operators::closed_half(closed, a));
+  }
+}
+
+bool CurvilinearOperator::closed_face(const FaceIndex& f) const
+{
+  const bool high_side = !ranks_.periodic(f.axis) && f.cell[f.axis] == ranks_.cells()[f.axis];
+  return high_side ? operators::is_closed(closed_.view()(stepped(f.cell, f.axis, -1)), f.axis, 1)
+                   : operators::is_closed(closed_.view()(f.cell), f.axis, 0);
+}
+
+/// a_f = (G'_aa(L) + G'_aa(R))/2, of the one cell on sides of the domain.
+void CurvilinearOperator::set_face(const FaceIndex& f)
+{
+  const View<const double> normal = std::as_const(normal_[f.axis]).view();
+  const Index3 low = stepped(f.cell, f.axis, -1);
+  const bool low_side = on_side(f) && f.cell[f.axis] == 0;
+  const bool high_side = on_side(f) && !low_side;
+  face_[f.axis].view()(f.cell) = closed_face(f) ? 0.0
+                                 : low_side     ? normal(f.cell)
+                                 : high_side    ? normal(low)
+                                                : 0.5 * (normal(low) + normal(f.cell));
+}
+
+/// The faces that set_face may set: low ones of owned cells, and those on high sides.
+void CurvilinearOperator::list_faces(std::span<const Index3> cells, std::vector<FaceIndex>& faces) const
+{
+  const IndexBox& owned = ranks_.owned();
+  for (const Index3& c : cells)
+    for (int a = 0; a < 3; ++a) {
+      faces.push_back({a, c});
+      Index3 high = stepped(c, a, 1);
+      if (ranks_.periodic(a) && high[a] == ranks_.cells()[a])
+        high[a] = 0;
+      if (owned.contains(high) || high[a] == ranks_.cells()[a])
+        faces.push_back({a, high});
+    }
+  // What changed beyond an edge of this rank's block changes the face on the edge.
+  for (int a = 1; a < 3 && ranks_.size() > 1; ++a)
+    if (ranks_.blocks(a) > 1 && !ranks_.at_boundary(a, 0)) {
+      IndexBox edge = owned;
+      edge.hi[a] = edge.lo[a] + 1;
+      for_each_cell_in_order(edge, [&](int i, int j, int k) { faces.push_back({a, {i, j, k}}); });
+    }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+}
+
+CurvilinearOperator::Changes CurvilinearOperator::set_blocked(std::span<const FaceIndex> faces)
+{
+  std::vector<FaceIndex> now(faces.begin(), faces.end());
+  std::sort(now.begin(), now.end());
+  std::vector<FaceIndex> opened, shut;
+  std::set_difference(blocked_.begin(), blocked_.end(), now.begin(), now.end(), std::back_inserter(opened));
+  std::set_difference(now.begin(), now.end(), blocked_.begin(), blocked_.end(), std::back_inserter(shut));
+  blocked_ = std::move(now);
+  Changes changes;
+  set_blocked_bits(opened, false, changes.cells);
+  set_blocked_bits(shut, true, changes.cells);
+  std::sort(changes.cells.begin(), changes.cells.end());
+  changes.cells.erase(std::unique(changes.cells.begin(), changes.cells.end()), changes.cells.end());
+  for (const Index3& c : changes.cells)
+    close_cell(c);
+  halo_.exchange(views(normal_));
+  halo_.exchange(views(cross_));
+  list_faces(changes.cells, changes.faces);
+  std::erase_if(changes.faces, [&](const FaceIndex& f) {
+    const double before = face_[f.axis].view()(f.cell);
+    set_face(f);
+    return face_[f.axis].view()(f.cell) == before;
+  });
+  halo_.exchange(views(face_));
+  return changes;
+}
+
+}  // namespace luff::poisson
