@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
-
-#include <Eigen/Dense>
 
 #include "core/error.hpp"
+#include "shell/patch_quadratic.hpp"
 
 namespace luff::shell {
 
@@ -17,44 +14,17 @@ namespace {
 
 using surface::Topology;
 using surface::TriangleMesh;
-using Vec2 = Eigen::Vector2d;
-using Mat36 = Eigen::Matrix<double, 3, 6>;
 
-constexpr double conic_replaced = 50;  // beyond it a fit is not used
-
-/// Six-vertex patch of a triangle: its corners 0..2 and the apices 3..5 across edges 0..2.
+/// A triangle and its neighbours: the quadratic through its corners 0..2 and the apices 3..5 across edges 0..2, and
+/// which vertices these are.
 struct Patch {
   std::array<int, 6> vertex;
   std::array<int, 6> image;
   std::array<bool, 6> present;
-  std::array<Vec2, 3> g;  ///< gradients of the area coordinates in the triangle's plane
-  std::array<double, 3> height;
-  std::array<Vec2, 3> m;  ///< outward edge normals
   std::array<bool, 3> mirrored;
   std::array<Image, 3> mirror;
-  bool replaced = false;  ///< the fit by hinge angles, because the six vertices lie near a conic
-  Mat36 bubble;           ///< c_k = sum_i bubble(k, i) y_i: coefficients of the quadratic's edge bubbles
+  PatchQuadratic quadratic;
 };
-
-/// Second derivatives of the bubble L_a L_b in Voigt order, (2 a1 b1, 2 a2 b2, 2 (a1 b2 + a2 b1)).
-Vec3 bubble_curvature(const Vec2& a, const Vec2& b)
-{
-  return {2 * a.x() * b.x(), 2 * a.y() * b.y(), 2 * (a.x() * b.y() + a.y() * b.x())};
-}
-
-Mat3 bubble_curvatures(const std::array<Vec2, 3>& g)
-{
-  Mat3 S;
-  for (int k = 0; k < 3; ++k)
-    S.col(k) = bubble_curvature(g[(k + 1) % 3], g[(k + 2) % 3]);
-  return S;
-}
-
-/// (m1^2, m2^2, 2 m1 m2)
-Vec3 dyad(const Vec2& m)
-{
-  return {m.x() * m.x(), m.y() * m.y(), 2 * m.x() * m.y()};
-}
 
 class Builder {
  public:
@@ -86,7 +56,7 @@ class Builder {
   }
 
  private:
-  // --- the quadratic through a patch -------------------------------------------------------------------------------
+  // --- patches -------------------------------------------------------------------------------------------------------
 
   Patch make_patch(int t)
   {
@@ -100,10 +70,16 @@ class Builder {
     }
     for (int k = 0; k < 3; ++k)
       Y[3 + k] = place_apex(t, k, p);
-    const std::array<Vec2, 6> xi = project_on_plane(Y);
-    set_gradients(xi, p);
-    p.bubble = bubble_coefficients(t, xi, Y, p);
-    apply_natural_condition(p);
+    if (const int k = folded_edge(Y); k >= 0)
+      reject_fold(t, k);
+    const std::array<bool, 3> missing{!p.present[3], !p.present[4], !p.present[5]};
+    p.quadratic =
+        kind_ == BendingKind::Hinge ? hinge_angles(Y, missing, moduli_) : patch_quadratic(Y, missing, moduli_);
+    if (p.quadratic.conic > result_.worst_conic) {
+      result_.worst_conic = p.quadratic.conic;
+      result_.worst_triangle = t;
+    }
+    result_.n_replaced += p.quadratic.replaced ? 1 : 0;
     return p;
   }
 
@@ -134,106 +110,13 @@ class Builder {
     return p.mirror[k].T * X[opposite] + p.mirror[k].t;
   }
 
-  /// Coordinates in the frame e1 = along the first side, e2 = N x e1, origin at the first corner.
-  static std::array<Vec2, 6> project_on_plane(const std::array<Vec3, 6>& Y)
-  {
-    const Vec3 e1 = (Y[1] - Y[0]).normalized();
-    const Vec3 N = (Y[1] - Y[0]).cross(Y[2] - Y[0]).normalized();
-    const Vec3 e2 = N.cross(e1);
-    std::array<Vec2, 6> xi;
-    for (int i = 0; i < 6; ++i)
-      xi[i] = {e1.dot(Y[i] - Y[0]), e2.dot(Y[i] - Y[0])};
-    return xi;
-  }
-
-  static void set_gradients(const std::array<Vec2, 6>& xi, Patch& p)
-  {
-    const Vec2 u = xi[1] - xi[0], v = xi[2] - xi[0];
-    const double twice_area = u.x() * v.y() - u.y() * v.x();
-    for (int k = 0; k < 3; ++k) {
-      const Vec2 side = xi[(k + 2) % 3] - xi[(k + 1) % 3];
-      p.g[k] = Vec2(-side.y(), side.x()) / twice_area;
-      p.height[k] = 1 / p.g[k].norm();
-      p.m[k] = -p.height[k] * p.g[k];
-    }
-  }
-
-  /// c = M^-1 [-L(apices) | I] y with M_jk = bubble k at apex j; hinge angles where the six vertices are near a conic.
-  Mat36 bubble_coefficients(int t, const std::array<Vec2, 6>& xi, const std::array<Vec3, 6>& Y, Patch& p)
-  {
-    Mat3 M, L;
-    for (int j = 0; j < 3; ++j) {
-      for (int i = 0; i < 3; ++i)
-        L(j, i) = (i == 0 ? 1.0 : 0.0) + p.g[i].dot(xi[3 + j] - xi[0]);
-      if (!(L(j, j) < 0))
-        reject_fold(t, j);
-      M.row(j) << L(j, 1) * L(j, 2), L(j, 2) * L(j, 0), L(j, 0) * L(j, 1);
-    }
-    if (kind_ == BendingKind::Hinge)
-      return hinge_coefficients(Y, p);
-    const double conic =
-        1 / std::max(Eigen::JacobiSVD<Mat3>(M).singularValues()(2), std::numeric_limits<double>::epsilon());
-    if (conic > result_.worst_conic) {
-      result_.worst_conic = conic;
-      result_.worst_triangle = t;
-    }
-    p.replaced = conic > conic_replaced;
-    if (p.replaced) {
-      ++result_.n_replaced;
-      return hinge_coefficients(Y, p);
-    }
-    Mat36 right;
-    right << -L, Mat3::Identity();
-    return M.inverse() * right;
-  }
-
-  /// kappa = sum_k 2 theta_k/(h_k + h'_k) m (x) m with the hinge angle theta_k from the two heights over edge k
-  /// [grinspun_2006_computing], weights by height, written as bubble coefficients.
-  static Mat36 hinge_coefficients(const std::array<Vec3, 6>& Y, const Patch& p)
-  {
-    Mat36 H = Mat36::Zero();
-    for (int k = 0; k < 3; ++k) {
-      const int a = (k + 1) % 3, b = (k + 2) % 3;
-      const Vec3 along = Y[b] - Y[a];
-      const double s = along.dot(Y[k] - Y[a]) / along.squaredNorm();
-      const double s_apex = along.dot(Y[3 + k] - Y[a]) / along.squaredNorm();
-      const double h = p.height[k], h_apex = (Y[3 + k] - Y[a] - s_apex * along).norm();
-      const Vec3 weight = 2 / (h + h_apex) * dyad(p.m[k]);
-      H.col(3 + k) += weight / h_apex;
-      H.col(k) += weight / h;
-      H.col(a) -= weight * ((1 - s_apex) / h_apex + (1 - s) / h);
-      H.col(b) -= weight * (s_apex / h_apex + s / h);
-    }
-    return bubble_curvatures(p.g).inverse() * H;
-  }
-
-  /// Ghosts beyond free edges take the place of least bending energy: H <- (I - V (V'CV)^-1 V'C) H with V the ghosts'
-  /// columns, one column after the other. Equals a zero moment across the edge wherever the ghost was put.
-  void apply_natural_condition(Patch& p) const
-  {
-    if (p.present[3] && p.present[4] && p.present[5])
-      return;
-    const Mat3 S = bubble_curvatures(p.g);
-    Mat36 H = S * p.bubble;
-    for (int k = 0; k < 3; ++k)
-      if (!p.present[3 + k]) {
-        const Vec3 v = H.col(3 + k);
-        const Vec3 Cv = moduli_ * v;
-        H -= (v * (Cv.transpose() * H) / v.dot(Cv)).eval();
-      }
-    for (int k = 0; k < 3; ++k)
-      if (!p.present[3 + k])
-        H.col(3 + k).setZero();
-    p.bubble = S.inverse() * H;
-  }
-
   // --- curvature from the patch alone --------------------------------------------------------------------------------
 
   /// kappa = sum_k c_k (second derivatives of bubble k) . n
   std::vector<StencilEntry> own_stencil(int t)
   {
     const Patch& p = patches_[t];
-    const Mat36 H = bubble_curvatures(p.g) * p.bubble;
+    const Eigen::Matrix<double, 3, 6> H = p.quadratic.second_derivatives();
     std::vector<StencilEntry> stencil;
     for (int i = 0; i < 6; ++i)
       if (p.present[i])
@@ -252,7 +135,7 @@ class Builder {
       if (p.present[i])
         add(p.vertex[i], p.image[i], Vec3::Zero(), nullptr, stencil);
     for (int k = 0; k < 3; ++k) {
-      const Vec3 weight = 2 / p.height[k] * dyad(p.m[k]);
+      const Vec3 weight = 2 / p.quadratic.height[k] * dyad(p.quadratic.m[k]);
       if (!p.present[3 + k]) {
         add_bubbles(p, k, -weight, nullptr, stencil);
         continue;
@@ -263,9 +146,9 @@ class Builder {
       const int edge = p.mirrored[k] ? k : topology_.neighbour_edge[t][k];
       const double share = share_of_neighbour(p, q);
       add_bubbles(p, k, -(1 - share) * weight, nullptr, stencil);
-      add_flat_slope(p, p.m[k], -share * weight, nullptr, stencil);
+      add_flat_slope(p, p.quadratic.m[k], -share * weight, nullptr, stencil);
       add_bubbles(q, edge, share * weight, through, stencil);
-      add_flat_slope(q, -q.m[edge], share * weight, through, stencil);
+      add_flat_slope(q, -q.quadratic.m[edge], share * weight, through, stencil);
     }
     return stencil;
   }
@@ -274,7 +157,7 @@ class Builder {
   /// and equilibrium need a single slope per edge, from whichever quadratics.
   static double share_of_neighbour(const Patch& own, const Patch& neighbour)
   {
-    return own.replaced == neighbour.replaced ? 0.5 : own.replaced ? 1 : 0;
+    return own.quadratic.replaced == neighbour.quadratic.replaced ? 0.5 : own.quadratic.replaced ? 1 : 0;
   }
 
   /// The mirror of a supported edge and the two vertices on it, which are their own images.
@@ -287,10 +170,11 @@ class Builder {
   /// Part of the mid-edge slope that the bubbles add to the flat triangle's, (c_a + c_b - c_k)/(2 h_k), inward.
   void add_bubbles(const Patch& p, int k, const Vec3& weight, const Reflected* mirror, std::vector<StencilEntry>& out)
   {
+    const PatchQuadratic& q = p.quadratic;
     const int a = (k + 1) % 3, b = (k + 2) % 3;
     for (int i = 0; i < 6; ++i)
       if (p.present[i])
-        add(p.vertex[i], p.image[i], (p.bubble(a, i) + p.bubble(b, i) - p.bubble(k, i)) / (2 * p.height[k]) * weight,
+        add(p.vertex[i], p.image[i], (q.bubble(a, i) + q.bubble(b, i) - q.bubble(k, i)) / (2 * q.height[k]) * weight,
             mirror, out);
   }
 
@@ -298,7 +182,7 @@ class Builder {
                       std::vector<StencilEntry>& out)
   {
     for (int i = 0; i < 3; ++i)
-      add(p.vertex[i], -1, p.g[i].dot(direction) * weight, mirror, out);
+      add(p.vertex[i], -1, p.quadratic.g[i].dot(direction) * weight, mirror, out);
   }
 
   void add(int vertex, int image, const Vec3& H, const Reflected* mirror, std::vector<StencilEntry>& out)
@@ -360,18 +244,6 @@ class Builder {
 };
 
 }  // namespace
-
-Image reflection(const Vec3& normal, const Vec3& on_plane)
-{
-  return {Mat3::Identity() - 2 * normal * normal.transpose(), 2 * normal * normal.dot(on_plane)};
-}
-
-Image compose(const Image& outer, const Image& inner)
-{
-  Image both{outer.T * inner.T, outer.T * inner.t + outer.t, outer.mirrors};
-  both.mirrors.insert(both.mirrors.end(), inner.mirrors.begin(), inner.mirrors.end());
-  return both;
-}
 
 BendingOperator bending_operator(BendingKind kind, const TriangleMesh& mesh, const Topology& topology,
                                  const std::vector<MirrorEdge>& mirrors, const Mat3& moduli, std::string_view shell)

@@ -5,26 +5,12 @@
 #include <string_view>
 #include <vector>
 
+#include "shell/images.hpp"
 #include "shell/support.hpp"
 #include "surface/mesh.hpp"
 #include "surface/topology.hpp"
 
 namespace luff::shell {
-
-/// Affine image y = T x + t of a vertex, made by mirrors at supported edges.
-struct Image {
-  Mat3 T;
-  Vec3 t;
-  /// Numbers of the mirrors it is composed of, the last one first, where one of them moves; empty where none does.
-  std::vector<int> mirrors{};
-};
-
-using Images = std::vector<Image>;
-
-/// Reflection in the plane through a point with this unit normal.
-Image reflection(const Vec3& normal, const Vec3& on_plane);
-/// The image of an image.
-Image compose(const Image& outer, const Image& inner);
 
 /// One vertex (or image of one) in the curvature of a triangle.
 struct StencilEntry {
@@ -42,8 +28,9 @@ struct BendingOperator {
   /// vertices on a conic or two that coincide (around a vertex of three triangles); 0 for hinges, which fit nothing.
   double worst_conic = 0;
   int worst_triangle = -1;
-  /// Triangles without a quadratic of their own because q > 50: averaged slopes come from their neighbours alone, or
-  /// from hinge angles where those have none either; patch quadratics become hinge angles.
+  /// Triangles without a quadratic of their own because q > 50, or because the condition of no moment at their free
+  /// edges does not settle one: averaged slopes come from their neighbours alone, or from hinge angles where those have
+  /// none either; patch quadratics become hinge angles.
   int n_replaced = 0;
 };
 
