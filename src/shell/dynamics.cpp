@@ -245,7 +245,7 @@ Dynamics::Trial Dynamics::solve(double t_new, double dt, const Eigen::VectorXd& 
 
 Folds Dynamics::accept(const Eigen::VectorXd& positions, double t_new, double dt, const Eigen::VectorXd& fluid_forces)
 {
-  const Folds report = check_folds(shell_, positions, options_.fold_limit, when(t_new));
+  const Folds report = check_folds(shell_, positions, options_.fold_limit, when(t_new), t_new);
   const Kinematics k = kinematics(positions, dt);
   const State before = std::exchange(state_, {positions, k.v, k.a, t_new});
   book_work(before, fluid_forces);

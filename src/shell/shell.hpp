@@ -69,6 +69,17 @@ class Shell {
   const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
   const std::vector<Element>& elements() const { return elements_; }
 
+  /// A boundary edge between the vertices a and b across which the shell continues as its mirror image.
+  struct Mirror {
+    surface::TriangleEdge edge;
+    Vec3 normal;  ///< in the reference, unit
+    int a, b;
+    int motion;  ///< number of the motion, or -1
+  };
+  const std::vector<Mirror>& mirrors() const { return mirrors_; }
+  /// Normal of a mirror at time t, turned with its support; a factor other than 1 takes that part of the motion.
+  Vec3 normal_of(const Mirror& mirror, double t, double factor = 1) const;
+
   /// Images of vertices beyond clamped and symmetry edges at time t, with what supports hold in configuration x as they
   /// hold it; the reference's where no support moves. A factor other than 1 takes that part of the supports' motion.
   Images images_at(const Eigen::VectorXd& x, double t, double factor = 1) const;
@@ -118,13 +129,6 @@ class Shell {
   void append(Piece piece);
   void append_elements(const Piece& piece, const surface::Topology& topology, const BendingOperator& bending,
                        int first_vertex);
-  /// A mirror at a boundary edge between the vertices a and b.
-  struct Mirror {
-    Vec3 normal;  ///< in the reference
-    int a, b;
-    int motion;  ///< number of the motion, or -1
-  };
-
   const SmoothedMembrane* membrane_of(const Element& element) const;
   NodePositions gather(const Element& element, const Eigen::VectorXd& x, const Images& images) const;
   template <class Body>

@@ -55,7 +55,7 @@ class LoadPath {
     const double mark = static_cast<double>(step) / options_.steps;
     while (now_.load_factor < mark)
       advance(length_.end(now_.load_factor, mark));
-    now_.folds = check_folds(problem_.shell(), now_.positions, options_.fold_limit, when(mark));
+    now_.folds = check_folds(problem_.shell(), now_.positions, options_.fold_limit, when(mark), options_.time, mark);
     return now_;
   }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "core/error.hpp"
@@ -252,6 +254,32 @@ TEST(Dynamics, SharpFoldStopsTheRunAndKeepsTheState)
         << error.what();
   }
   EXPECT_EQ(dynamics.accepted().x, shell.reference_positions());
+}
+
+// Half a shell may crease over the plane in which it is mirrored, or a clamped one over its clamp: no two triangles of
+// the mesh show it, and the pull-out of the open cylinder folded flat that way, unseen.
+TEST(Dynamics, FoldsOverMirroredEdgesCountTwiceTheTurn)
+{
+  const surface::TriangleMesh mesh = test::sheet(1, 0.5, 4, 3, surface::Pattern::Diagonal);
+  const std::vector<int> edge = test::vertices_where(mesh, [](const Vec3& X) { return X.x() == 0; });
+  constexpr double turn = 30 * std::numbers::pi / 180;
+  Eigen::VectorXd turned = surface::interleaved(mesh.vertices);
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    turned[3 * v] = std::cos(turn) * mesh.vertices[v].x();
+    turned[3 * v + 2] = std::sin(turn) * mesh.vertices[v].x();
+  }
+  const Properties thin{.thickness = 0.01, .density = 1, .material = SaintVenantKirchhoff{1, 0.3}};
+  const Motion turning{.rotation = Motion::Rotation{-Vec3::UnitY(), Vec3::Zero(), [](double t) { return t; }}};
+  for (const Support& support : {Support{.kind = SupportKind::Clamped, .vertices = edge},
+                                 Support{.kind = SupportKind::Symmetry, .vertices = edge, .normal = Vec3::UnitX()},
+                                 Support{.kind = SupportKind::Clamped, .vertices = edge, .motion = turning}}) {
+    const Shell shell(mesh, thin, {support});
+    const Folds found = folds(shell, turned);
+    EXPECT_NEAR(found.largest, 60, 1e-9);
+    EXPECT_EQ(found.n_sharp, 3);
+    EXPECT_LT(folds(shell, shell.reference_positions()).largest, 1e-9);
+    EXPECT_NEAR(folds(shell, turned, turn).largest, support.motion ? 0 : 60, 1e-9);  // the clamp turns along
+  }
 }
 
 TEST(Dynamics, FoldsOfTheReferenceDontCount)
