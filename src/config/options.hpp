@@ -130,9 +130,10 @@ struct MeshOptions {
   double inner_radius = 0.0;  ///< Annulus
   double length = 0.0;        ///< Cylinder
   AngleOptions angle;
-  PolarOptions polar;                  ///< SphereCap
-  std::array<int, 2> divisions{0, 0};  ///< along a and b; around and across
-  int rings = 0;                       ///< Disk, SphereCap with a pole
+  PolarOptions polar;                   ///< SphereCap
+  std::array<int, 2> divisions{0, 0};   ///< along a and b; around and across
+  std::array<double, 2> grading{1, 1};  ///< Rectangle, Cylinder: growth of the spacing along each
+  int rings = 0;                        ///< Disk, SphereCap with a pole
   MeshPattern pattern = MeshPattern::Diagonal;
   int seed = 1;
 

@@ -58,8 +58,9 @@ struct ChoiceList {
 };
 
 /// Refers to an option of any of the kinds that a key can hold.
-using Value = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, std::array<int, 2>*, Vec3*,
-                           std::array<Vec3, 2>*, Expression*, VectorExpression*, Choice, ChoiceList>;
+using Value = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, std::array<int, 2>*,
+                           std::array<double, 2>*, Vec3*, std::array<Vec3, 2>*, Expression*, VectorExpression*, Choice,
+                           ChoiceList>;
 
 /// Visitor of a tree of options. `describe(Schema&, Options&)`, one function for each struct of options.hpp, names the
 /// keys, tables and rules of that struct; what happens with them is up to the visitor:

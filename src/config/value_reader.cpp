@@ -25,6 +25,7 @@ class ValueReader {
   void operator()(std::string* v) const { assign(v, node_.value_exact<std::string>()); }
   void operator()(std::filesystem::path* v) const;
   void operator()(std::array<int, 2>* v) const { read_entries(v->data(), 2, v); }
+  void operator()(std::array<double, 2>* v) const { read_entries(v->data(), 2, v); }
   void operator()(Vec3* v) const { read_entries(v->data(), 3, v); }
   void operator()(std::array<Vec3, 2>* v) const { read_entries(v->data(), 2, v); }
   void operator()(Expression* v) const;

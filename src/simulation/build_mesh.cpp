@@ -41,6 +41,7 @@ surface::Rectangle rectangle(const config::MeshOptions& mesh)
           .a = mesh.a,
           .b = mesh.b,
           .divisions = mesh.divisions,
+          .grading = mesh.grading,
           .pattern = pattern_of(mesh.pattern),
           .seed = static_cast<unsigned>(mesh.seed)};
 }
@@ -73,6 +74,7 @@ surface::Cylinder cylinder(const config::MeshOptions& mesh)
           .length = mesh.length,
           .angle = sector_of(mesh.angle),
           .divisions = mesh.divisions,
+          .grading = mesh.grading,
           .pattern = pattern_of(mesh.pattern),
           .seed = static_cast<unsigned>(mesh.seed)};
 }

@@ -14,6 +14,7 @@ namespace {
 void check(const Rectangle& shape)
 {
   check_divisions("rectangle", shape.divisions);
+  check_grading("rectangle", shape.grading, shape.pattern);
   if (!shape.origin.allFinite() || !shape.a.allFinite() || !shape.b.allFinite())
     fail_input("rectangle: origin, a and b must be finite numbers");
   // Below this sine of the angle between the sides the triangles have no usable area.
@@ -27,7 +28,8 @@ MarkedMesh made(const Rectangle& shape)
 {
   check(shape);
   const auto point = [&](double u, double v) -> Vec3 {
-    return shape.origin + u / shape.divisions[0] * shape.a + v / shape.divisions[1] * shape.b;
+    return shape.origin + graded(u / shape.divisions[0], shape.grading[0]) * shape.a +
+           graded(v / shape.divisions[1], shape.grading[1]) * shape.b;
   };
   return triangulate(grid_layout(shape.divisions, Around::Open), plane(point, shape.origin, shape.a.cross(shape.b)),
                      {shape.pattern, shape.displacement, shape.seed}, "rectangle",

@@ -17,6 +17,8 @@ struct Rectangle {
   Vec3 a = Vec3::UnitX();      ///< first side [L]
   Vec3 b = Vec3::UnitY();      ///< second side [L]
   std::array<int, 2> divisions{1, 1};
+  /// Growth of the spacing from one end of a side to the other, > 0; not with Pattern::Delaunay, which spreads evenly.
+  std::array<double, 2> grading{1, 1};
   Pattern pattern = Pattern::Diagonal;
   double displacement = 0.28;  ///< Irregular: largest move of an inner vertex, in spacings, 0 <= d < 0.45
   unsigned seed = 1;           ///< Irregular, Delaunay: same seed, same mesh
@@ -68,6 +70,7 @@ struct Cylinder {
   double length = 1;  ///< [L]
   Sector angle = {};
   std::array<int, 2> divisions{24, 4};  ///< around, along the axis
+  std::array<double, 2> grading{1, 1};  ///< as in Rectangle; none around a whole circle
   Pattern pattern = Pattern::Diagonal;
   double displacement = 0.28;
   unsigned seed = 1;

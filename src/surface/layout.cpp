@@ -3,6 +3,7 @@
 #include "surface/layout.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 
@@ -37,6 +38,11 @@ std::map<std::string, Side> grid_sides(int columns, int rows, bool closed)
 }
 
 }  // namespace
+
+double graded(double fraction, double growth)
+{
+  return growth == 1 ? fraction : (std::pow(growth, fraction) - 1) / (growth - 1);
+}
 
 Layout grid_layout(const std::array<int, 2>& divisions, Around around)
 {

@@ -37,6 +37,10 @@ void check_divisions(std::string_view shape, const std::array<int, 2>& divisions
 
 enum class Around { Open, Closed };
 
+/// Place in 0 to 1 of this fraction of the divisions when spacings grow by a constant factor from one to the next, by
+/// `growth` over all: (growth^fraction - 1)/(growth - 1).
+double graded(double fraction, double growth);
+
 /// Node (i, j), at u = i, v = j, has number i (divisions[1] + 1) + j. Closed: u = divisions[0] is u = 0 again.
 Layout grid_layout(const std::array<int, 2>& divisions, Around around);
 

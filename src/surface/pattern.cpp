@@ -2,6 +2,8 @@
 // From a layout to triangles on a surface.
 #include "surface/pattern.hpp"
 
+#include <cmath>
+
 #include "core/error.hpp"
 #include "surface/relaxation.hpp"
 
@@ -60,6 +62,16 @@ void join(const Layout& layout, const Cut& cut, Random& random, TriangleMesh& me
 }
 
 }  // namespace
+
+void check_grading(std::string_view shape, const std::array<double, 2>& grading, Pattern pattern)
+{
+  for (const double growth : grading)
+    if (!(growth > 0) || !std::isfinite(growth))
+      fail_input("{}: grading = [{}, {}] must be two numbers > 0", shape, grading[0], grading[1]);
+  if (pattern == Pattern::Delaunay && (grading[0] != 1 || grading[1] != 1))
+    fail_input("{}: grading = [{}, {}] goes with every pattern but \"delaunay\", which spreads vertices evenly", shape,
+               grading[0], grading[1]);
+}
 
 ParametricSurface plane(std::function<Vec3(double, double)> point, const Vec3& origin, const Vec3& normal)
 {

@@ -23,6 +23,9 @@ struct Cut {
   unsigned seed;        ///< Irregular, Delaunay: same seed, same mesh
 };
 
+/// \throws InputError that starts with `shape` for growths that are not positive, or with evenly spread vertices.
+void check_grading(std::string_view shape, const std::array<double, 2>& grading, Pattern pattern);
+
 /// A smooth surface x(u, v); u and v count the spacings of a Layout.
 struct ParametricSurface {
   std::function<Vec3(double u, double v)> point;

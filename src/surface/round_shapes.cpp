@@ -193,13 +193,18 @@ MarkedMesh made(const Cylinder& shape)
 {
   check_length("cylinder", "radius", shape.radius);
   check_length("cylinder", "length", shape.length);
+  check_grading("cylinder", shape.grading, shape.pattern);
+  if (shape.grading[0] != 1 && around("cylinder", shape.angle) == Around::Closed)
+    fail_input("cylinder: grading = [{}, {}] around a whole circle, which has no ends, must be 1", shape.grading[0],
+               shape.grading[1]);
   const Axes axes = axes_of("cylinder", shape.frame);
   const Vec3& centre = shape.frame.centre;
   const auto outwards = [&](const Vec3& x) -> Vec3 { return x - centre - axes.z.dot(x - centre) * axes.z; };
   const ParametricSurface surface{
       [&](double u, double v) -> Vec3 {
-        return centre + shape.radius * axes.radial(along(shape.angle, u / shape.divisions[0])) +
-               v / shape.divisions[1] * shape.length * axes.z;
+        return centre +
+               shape.radius * axes.radial(along(shape.angle, graded(u / shape.divisions[0], shape.grading[0]))) +
+               graded(v / shape.divisions[1], shape.grading[1]) * shape.length * axes.z;
       },
       [&](const Vec3& x) -> Vec3 { return x + (shape.radius / outwards(x).norm() - 1) * outwards(x); }, outwards};
   return triangulated(round_grid("cylinder", shape.divisions, shape.angle, shape.pattern), surface, shape, "cylinder",

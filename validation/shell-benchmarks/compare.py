@@ -123,14 +123,14 @@ BENCHMARKS = {
             Curve("-U_B", "side", "y", -1, table("sze2004_pullout_open_cylinder.csv", "minus_U_B")),
             Curve("-U_C", "end", "y", -1, table("sze2004_pullout_open_cylinder.csv", "minus_U_C")),
         ],
-        meshes("cylinder", ("diagonal", 72, 48), ("delaunay", 72, 48)),
+        meshes("cylinder", ("alternating", 72, 48), ("irregular", 72, 48)),
     ),
     "pinched-cylinder-diaphragms": Benchmark(
         [
             Curve("-W_A", "force", "z", -1, table("sze2004_pinched_cylinder_diaphragms.csv", "minus_W_A")),
             Curve("U_B", "side", "y", 1, table("sze2004_pinched_cylinder_diaphragms.csv", "U_B")),
         ],
-        meshes("cylinder", ("delaunay", 72, 48)),
+        meshes("cylinder", ("alternating", 120, 80), ("irregular", 120, 80)),
     ),
     "pinched-semicylinder": Benchmark(
         [Curve("-W", "force", "z", -1, table("sze2004_pinched_semicylinder.csv", "minus_W"))],

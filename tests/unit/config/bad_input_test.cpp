@@ -118,6 +118,15 @@ const BadInput meshes[] = {
     {"ADiskHasDivisions", flag_mesh, "shape = \"disk\", radius = 1, rings = 4, divisions = [4, 4]",
      "case.toml:22: shell.mesh.divisions goes only with `rectangle`, `annulus`, `cylinder`, or `sphere-cap` without a "
      "pole"},
+    {"AGradingIsNotPositive", "divisions = [20, 10]", "divisions = [20, 10], grading = [2, 0]",
+     "case.toml:22: shell.mesh.grading[1] = 0 must be a number > 0"},
+    {"AGradedMeshIsSpreadEvenly", "divisions = [20, 10]",
+     "divisions = [20, 10], grading = [2, 1], pattern = \"delaunay\"",
+     "case.toml:22: shell.mesh.grading goes with every pattern but \"delaunay\", which spreads vertices "
+     "evenly"},
+    {"AWholeCylinderIsGradedAround", flag_mesh,
+     "shape = \"cylinder\", radius = 1, length = 2, divisions = [4, 4], grading = [2, 1]",
+     "case.toml:22: shell.mesh.grading must begin with 1 around a whole circle, which has no ends"},
     {"ACylinderHasRings", flag_mesh, "shape = \"cylinder\", radius = 1, length = 2, divisions = [4, 4], rings = 4",
      "case.toml:22: shell.mesh.rings goes only with `disk`, or `sphere-cap` with a pole"},
     {"AZoneWithAPoleLacksRings", flag_mesh, "shape = \"sphere-cap\", radius = 1, polar = { to = 90 }",

@@ -330,6 +330,28 @@ TEST(Shapes, AnglesStartAtTheXAxisOrAtYWhereThatIsTheAxis)
   EXPECT_LT((cylinder({.frame = {.axis = Vec3(2, 0, 0)}, .angle = {0, 90}}).vertices[0] - Vec3(0, 1, 0)).norm(), 1e-15);
 }
 
+// Along the axis from spacing s to 8 s in 4 divisions: growth 8^(1/4) from one to the next; around by 1/8.
+TEST(Shapes, GradedSpacingsGrowByAConstantFactor)
+{
+  for (const Pattern pattern : {Pattern::Diagonal, Pattern::Alternating, Pattern::Irregular}) {
+    const TriangleMesh mesh =
+        cylinder({.length = 2, .angle = {0, 90}, .divisions = {5, 4}, .grading = {0.125, 8}, .pattern = pattern});
+    EXPECT_NO_THROW(validate(mesh, "cylinder"));
+    for (int j = 1; j < 4; ++j) {
+      const double before = mesh.vertices[j].z() - mesh.vertices[j - 1].z();
+      const double after = mesh.vertices[j + 1].z() - mesh.vertices[j].z();
+      EXPECT_NEAR(after / before, std::pow(8, 0.25), 1e-12);
+    }
+    EXPECT_NEAR(mesh.vertices[4].z(), 2, 1e-15);
+    const auto angle = [&](int i) { return std::atan2(mesh.vertices[5 * i].y(), mesh.vertices[5 * i].x()); };
+    for (int i = 1; i < 5; ++i)
+      EXPECT_NEAR((angle(i + 1) - angle(i)) / (angle(i) - angle(i - 1)), std::pow(0.125, 0.2), 1e-12);
+    EXPECT_NEAR(angle(5), std::numbers::pi / 2, 1e-15);
+  }
+  const TriangleMesh sheet = rectangle({.divisions = {2, 1}, .grading = {4, 1}});
+  EXPECT_NEAR(sheet.vertices[2].x(), 1.0 / 3, 1e-15);
+}
+
 TEST(Shapes, BadNumbersAreRefused)
 {
   EXPECT_THROW(disk({.radius = 0}), InputError);
@@ -343,6 +365,9 @@ TEST(Shapes, BadNumbersAreRefused)
   EXPECT_THROW(cylinder({.angle = {0, 400}}), InputError);
   EXPECT_THROW(cylinder({.angle = {90, 0}}), InputError);
   EXPECT_THROW(cylinder({.divisions = {2, 1}}), InputError);
+  EXPECT_THROW(cylinder({.grading = {2, 1}}), InputError);  // around the whole circle
+  EXPECT_THROW(cylinder({.grading = {1, 0}}), InputError);
+  EXPECT_THROW(cylinder({.grading = {1, 2}, .pattern = Pattern::Delaunay}), InputError);
   EXPECT_THROW(cylinder({.divisions = {100000, 100000}}), InputError);
   EXPECT_THROW(sphere_cap({.polar = {20, 200}}), InputError);
   EXPECT_THROW(sphere_cap({.polar = {0, 180}, .rings = 1}), InputError);
