@@ -142,6 +142,26 @@ TEST(ACoupledRun, GivesTheSameBitsOnOneAndTwoThreads)
   expect_same_numbers(folder, "one", "two");
 }
 
+// Pressed together with half a unit of traction from either side, in one layer of cells at the end.
+TEST(ACoupledRun, KeepsTwoFlagsThatMeetApart)
+{
+  const WorkFolder folder;
+  run_well(folder, two_flags_that_meet);
+  const auto out = folder.path() / "out";
+  const nlohmann::json summary = read_summary(out);
+  EXPECT_GT(summary["contact"]["most_pairs"], 50);
+  EXPECT_EQ(summary["contact"]["crossings"], 0);
+  EXPECT_GT(summary["contact"]["smallest_gap"], 0.3 * 0.05);
+  EXPECT_LT(summary["contact"]["smallest_gap"], 0.05);
+  EXPECT_LT(summary["max_divergence"], 1e-13);
+  // The case is its own mirror image.
+  const std::vector<double> lower = read_table(out / "probe-lower.csv").column("displacement_y [length]");
+  const std::vector<double> upper = read_table(out / "probe-upper.csv").column("displacement_y [length]");
+  ASSERT_EQ(lower.size(), 40U);
+  for (std::size_t n = 0; n < lower.size(); ++n)
+    EXPECT_NEAR(lower[n], -upper[n], 1e-8) << n;
+}
+
 TEST(ACoupledRun, AgreesOnOneTwoAndFourRanksTo1e7)
 {
   const WorkFolder folder;

@@ -50,6 +50,63 @@ name = "wake"
 point = [1.5, 0.0, 0.0]
 )toml";
 
+/// Two flags in a stream that loads press together from both sides; they meet within 0.62.
+inline const std::string two_flags_that_meet = R"toml(title = "Two flags that meet"
+[time]
+end = 0.8
+step = 0.02
+[fluid]
+density = 1.0
+viscosity = 0.01
+initial.velocity = [1.0, 0.0, 0.0]
+[grid]
+x = { from = -1.0, to = 2.0, cells = 24 }
+y = { from = -1.0, to = 1.0, cells = 16 }
+z = { from = -0.5, to = 0.5, cells = 8 }
+[boundary]
+x_min = { type = "velocity", value = [1.0, 0.0, 0.0] }
+x_max = { type = "outflow" }
+y_min = { type = "slip" }
+y_max = { type = "slip" }
+z_min = { type = "slip" }
+z_max = { type = "slip" }
+[contact]
+distance = 0.05
+stiffness = 10.0
+[[shell]]
+name = "lower"
+mesh = { shape = "rectangle", origin = [0, -0.11, -0.3], a = [0.8, 0, 0], b = [0, 0, 0.6], divisions = [6, 4] }
+thickness = 0.01
+density = 100.0
+material = { model = "saint-venant-kirchhoff", young = 5000.0, poisson = 0.3 }
+[[shell.support]]
+where = { edge = [[0, -0.11, -0.3], [0, -0.11, 0.3]] }
+type = "hinged"
+[[shell.load]]
+where = { all = true }
+traction = [0.0, 0.5, 0.0]
+[[shell]]
+name = "upper"
+mesh = { shape = "rectangle", origin = [0, 0.11, -0.3], a = [0.8, 0, 0], b = [0, 0, 0.6], divisions = [6, 4] }
+thickness = 0.01
+density = 100.0
+material = { model = "saint-venant-kirchhoff", young = 5000.0, poisson = 0.3 }
+[[shell.support]]
+where = { edge = [[0, 0.11, -0.3], [0, 0.11, 0.3]] }
+type = "hinged"
+[[shell.load]]
+where = { all = true }
+traction = [0.0, -0.5, 0.0]
+[[output.probe]]
+name = "lower"
+shell = "lower"
+point = [0.8, -0.11, 0.0]
+[[output.probe]]
+name = "upper"
+shell = "upper"
+point = [0.8, 0.11, 0.0]
+)toml";
+
 /// The edge of a strip pulled down, without a fluid.
 inline const std::string small_strip = R"toml(title = "Small strip"
 [time]
