@@ -22,11 +22,28 @@ inline fluid::Boundaries all_sides(fluid::SideKind kind, const fluid::VectorFunc
   return sides;
 }
 
+/// Every axis between periodic sides, or between sides of one kind.
+inline fluid::Boundaries sides_of(const std::array<bool, 3>& periodic, const fluid::SideBoundary& other)
+{
+  fluid::Boundaries sides;
+  for (int a = 0; a < 3; ++a)
+    for (auto& side : sides[a])
+      side = periodic[a] ? fluid::SideBoundary{.kind = fluid::SideKind::Periodic} : other;
+  return sides;
+}
+
 /// A flow solver with its grid and pressure solver.
 struct TestFlow {
   TestFlow(std::array<std::vector<double>, 3> faces, const fluid::Boundaries& sides, const fluid::FlowOptions& options,
            MPI_Comm comm = MPI_COMM_WORLD)
       : grid(comm, std::move(faces), fluid::periodic_axes(sides)),
+        solver(grid, options, sides, poisson::make_pressure_solver(grid, fluid::pressure_conditions(sides)))
+  {
+  }
+  /// On a curvilinear grid.
+  TestFlow(const Index3& cells, const grid::NodeSource& nodes, const fluid::Boundaries& sides,
+           const fluid::FlowOptions& options, MPI_Comm comm = MPI_COMM_WORLD)
+      : grid(comm, cells, nodes, fluid::periodic_axes(sides)),
         solver(grid, options, sides, poisson::make_pressure_solver(grid, fluid::pressure_conditions(sides)))
   {
   }

@@ -4,55 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include "support/exact_flows.hpp"
 #include "support/flow.hpp"
+#include "support/orders.hpp"
 
 namespace luff::test {
 namespace {
 
 using std::numbers::pi;
-
-/// Taylor-Green's vortices, carried by a uniform stream: exact, unsteady, period 1 along x and y.
-struct TaylorGreen {
-  double viscosity = 0.0;
-  Vec3 stream{0.0, 0.0, 0.0};
-  double k = 2.0 * pi;
-
-  [[nodiscard]] Vec3 velocity(const Vec3& x, double t) const
-  {
-    const double decay = std::exp(-2.0 * viscosity * k * k * t);
-    const Vec3 X = x - stream * t;
-    return stream +
-           decay * Vec3(-std::cos(k * X[0]) * std::sin(k * X[1]), std::sin(k * X[0]) * std::cos(k * X[1]), 0.0);
-  }
-  [[nodiscard]] double pressure(const Vec3& x, double t) const
-  {
-    const double decay = std::exp(-4.0 * viscosity * k * k * t);
-    const Vec3 X = x - stream * t;
-    return -0.25 * decay * (std::cos(2.0 * k * X[0]) + std::cos(2.0 * k * X[1]));
-  }
-  [[nodiscard]] fluid::VectorFunction function() const
-  {
-    return {[*this](const Vec3& x, double t) { return velocity(x, t); }, false};
-  }
-};
-
-struct Errors {
-  double velocity = 0.0;
-  double pressure = 0.0;
-  double divergence = 0.0;
-};
-
-/// Velocity of the order given or better, pressure of second order.
-void expect_orders(const Errors& coarse, const Errors& fine, double velocity_order)
-{
-  const double velocity = observed_order(coarse.velocity, fine.velocity);
-  const double pressure = observed_order(coarse.pressure, fine.pressure);
-  std::cout << "  order of velocity " << velocity << ", of pressure " << pressure << "; divergence "
-            << std::max(coarse.divergence, fine.divergence) << '\n';
-  EXPECT_GE(velocity, velocity_order);
-  EXPECT_GE(pressure, 1.9);
-  EXPECT_LE(std::max(coarse.divergence, fine.divergence), 1e-13);
-}
 
 /// Taylor-Green's vortices on a stretched periodic grid; the step shrinks with the cells.
 Errors taylor_green_errors(int n)
@@ -73,19 +32,6 @@ TEST(Order, TaylorGreenOnAStretchedPeriodicGridIsSecondOrderInSpace)
   const Errors fine = taylor_green_errors(64);
   expect_orders(coarse, fine, 1.9);
 }
-
-/// Kovasznay's steady flow behind a row of cylinders, Re = 40 [kovasznay_1948_laminar].
-struct Kovasznay {
-  double reynolds = 40.0;
-  double lambda = 0.5 * reynolds - std::sqrt(0.25 * reynolds * reynolds + 4.0 * pi * pi);
-
-  [[nodiscard]] Vec3 velocity(const Vec3& x) const
-  {
-    const double e = std::exp(lambda * x[0]);
-    return {1.0 - e * std::cos(2.0 * pi * x[1]), lambda / (2.0 * pi) * e * std::sin(2.0 * pi * x[1]), 0.0};
-  }
-  [[nodiscard]] double pressure(const Vec3& x) const { return -0.5 * std::exp(2.0 * lambda * x[0]); }
-};
 
 Errors kovasznay_errors(int n)
 {
