@@ -43,8 +43,10 @@ std::array<bool, 3> periodic_axes(const Boundaries& boundaries)
 }
 
 BoundaryConditions::BoundaryConditions(const grid::Grid& grid, Boundaries boundaries)
-    : grid_(grid), boundaries_(std::move(boundaries))
+    : grid_(grid), boundaries_(std::move(boundaries)), halo_(grid.ranks())
 {
+  if (grid.kind() == grid::Kind::Curvilinear)
+    side_gradient_ = make_field3<double>(grid.owned());
   for (int axis = 0; axis < 3; ++axis)
     for (int end = 0; end < 2; ++end) {
       has_outflow_ = has_outflow_ || boundaries_[axis][end].kind == SideKind::Outflow;
@@ -194,6 +196,61 @@ void BoundaryConditions::set_fluxes(const View3<const double>& u_old, const View
       U[side.axis](side.face(c)) = area_vector(side, c).dot(u);
     });
   }
+}
+
+void BoundaryConditions::subtract_side_gradient(const View3<const double>& U_old, const View3<const double>& increment,
+                                                const View3<double>& U)
+{
+  const auto leaves_pressure_free = [&](const Side& side) { return boundary(side).kind != SideKind::Outflow; };
+  const View3<double> g = views(side_gradient_);
+  for (const Side& side : sides_)
+    for_each_side_cell(side, [&](const Index3& c, std::size_t) { g[side.axis](c) = 0.0; });
+  for (const Side& side : sides_)
+    if (leaves_pressure_free(side))
+      for_each_side_cell(side, [&](const Index3& c, std::size_t) {
+        const Index3 face = side.face(c);
+        g[side.axis](c) += U_old[side.axis](face) + area_vector(side, c).dot(at(increment, c)) - U[side.axis](face);
+      });
+  halo_.exchange(g);
+  for (const Side& side : sides_)
+    if (leaves_pressure_free(side))
+      subtract_side_gradient(side, U);
+}
+
+/// The cells beside a side, those of neighbours too: the face between two cells takes a part from each.
+void BoundaryConditions::subtract_side_gradient(const Side& side, const View3<double>& U) const
+{
+  const int b = side.axis;
+  const Index3& n = grid_.cells();
+  IndexBox cells = side.cells;
+  for (int t = 0; t < 3; ++t)
+    if (t != b) {
+      cells.lo[t] -= grid_.ranks().at_boundary(t, 0) ? 0 : 1;
+      cells.hi[t] += grid_.ranks().at_boundary(t, 1) ? 0 : 1;
+    }
+  // A cell between two sides holds the sum of both: each takes half.
+  const double share = n[b] == 1 ? 0.125 : 0.25;
+  grid_.visit([&](const auto& m) {
+    if constexpr (grid::is_curvilinear<std::remove_cvref_t<decltype(m)>>)
+      for_each_cell_in_order(cells, [&, g = side_gradient_[b].view()](int i, int j, int k) {
+        const Index3 c{i, j, k};
+        for (int t = 0; t < 3; ++t) {
+          if (t == b)
+            continue;
+          const double part = share * m.G[grid::symmetric(std::min(t, b), std::max(t, b))](c) / m.G[b](c) * g(c);
+          for (int end = 0; end < 2; ++end)
+            if (const Index3 face = stepped(c, t, end); !prescribed(t, face))
+              U[t](face) -= part;
+        }
+      });
+  });
+}
+
+/// Whether a face is none of this rank's cells, or lies on a side.
+bool BoundaryConditions::prescribed(int axis, const Index3& face) const
+{
+  return !grid_.owned().faces(axis).contains(face) ||
+         (!grid_.ranks().periodic(axis) && (face[axis] == 0 || face[axis] == grid_.cells()[axis]));
 }
 
 }  // namespace luff::fluid

@@ -20,6 +20,7 @@
 #include "core/vec3.hpp"
 #include "grid/grid.hpp"
 #include "parallel/field.hpp"
+#include "parallel/halo.hpp"
 #include "poisson/pressure_solver.hpp"
 
 namespace luff::fluid {
@@ -67,6 +68,16 @@ class BoundaryConditions {
   /// U* on the domain's sides; on outflow from the velocity u_old + increment of the cells beside them.
   void set_fluxes(const View3<const double>& u_old, const View3<const double>& increment, const View3<double>& U) const;
 
+  /// Curvilinear grids: the part of the pressure gradient that the closure of the pressure operator leaves out.  It
+  /// takes S_b . grad p as zero on sides b where the flux is prescribed; it is what the flow would have run through by,
+  ///
+  ///   g_b = c dt S_b . grad p = U^n_b + S_b . du_P - U_b,   and   U_t <- U_t - (1/4) G_tb/G_bb g_b
+  ///
+  /// on the faces t of P that are not prescribed: without it the pressure along a skewed side is wrong in the first row
+  /// of cells (docs/numerics/curvilinear.md).  U with the prescribed fluxes, increment with valid halos.  Collective.
+  void subtract_side_gradient(const View3<const double>& U_old, const View3<const double>& increment,
+                              const View3<double>& U);
+
   /// Largest prescribed speed at the time of the last evaluation [L/T].
   [[nodiscard]] double largest_speed() const { return largest_speed_; }
 
@@ -89,10 +100,14 @@ class BoundaryConditions {
   [[nodiscard]] const SideBoundary& boundary(const Side& side) const { return boundaries_[side.axis][side.end]; }
   [[nodiscard]] bool prescribes_flow(const Side& side) const { return boundary(side).kind == SideKind::Velocity; }
   void balance_fluxes();
+  void subtract_side_gradient(const Side& side, const View3<double>& U) const;
+  [[nodiscard]] bool prescribed(int axis, const Index3& face) const;
 
   const grid::Grid& grid_;
   Boundaries boundaries_;
   std::vector<Side> sides_;  ///< those that this rank touches
+  HaloExchange halo_;
+  Field3<double> side_gradient_;  ///< g_b of cells beside sides, on curvilinear grids
   bool has_outflow_ = false;
   bool evaluated_ = false;
   double largest_speed_ = 0.0;

@@ -245,7 +245,11 @@ void FlowSolver::interpolate_increment()
 void FlowSolver::prescribe_fluxes(const StageTime& time)
 {
   boundary_.evaluate_at(step_.t_old + time.fraction * step_.dt);
-  boundary_.set_fluxes(views(std::as_const(state_.u)), views(std::as_const(increment_)), views(U_));
+  const auto u_old = views(std::as_const(state_.u));
+  const auto du = views(std::as_const(increment_));
+  boundary_.set_fluxes(u_old, du, views(U_));
+  if (grid_.kind() == grid::Kind::Curvilinear)
+    boundary_.subtract_side_gradient(views(std::as_const(state_.U)), du, views(U_));
   links_.impose_fluxes(time, views(U_));
 }
 

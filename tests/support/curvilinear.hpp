@@ -22,7 +22,7 @@ grid::NodeSource mapped_nodes(const Index3& cells, Map map)
 /// The unit cube, its inside waved along all directions: skewed up to the cosine of about 0.55 for an amplitude of 0.1,
 /// periodic in shape.
 struct Waved {
-  double amplitude = 0.1;
+  double amplitude = 0.06;
   Vec3 operator()(const Vec3& s) const
   {
     using std::numbers::pi;

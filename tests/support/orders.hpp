@@ -16,15 +16,15 @@ struct Errors {
   double divergence = 0.0;
 };
 
-/// Velocity of the order given or better, pressure of second order.
-inline void expect_orders(const Errors& coarse, const Errors& fine, double velocity_order)
+/// Velocity and pressure of the orders given or better.
+inline void expect_orders(const Errors& coarse, const Errors& fine, double velocity_order, double pressure_order = 1.9)
 {
   const double velocity = observed_order(coarse.velocity, fine.velocity);
   const double pressure = observed_order(coarse.pressure, fine.pressure);
   std::cout << "  order of velocity " << velocity << ", of pressure " << pressure << "; divergence "
             << std::max(coarse.divergence, fine.divergence) << '\n';
   EXPECT_GE(velocity, velocity_order);
-  EXPECT_GE(pressure, 1.9);
+  EXPECT_GE(pressure, pressure_order);
   EXPECT_LE(std::max(coarse.divergence, fine.divergence), 1e-13);
 }
 

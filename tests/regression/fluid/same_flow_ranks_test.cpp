@@ -4,15 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include "parallel/vector_field.hpp"
+#include "support/curvilinear.hpp"
+#include "support/exact_flows.hpp"
 #include "support/stretched_flow.hpp"
 
 namespace luff::test {
 namespace {
 
-void expect_same_on_all_ranks(bool with_sheet)
+void expect_same(const Signature& together, const Signature& alone)
 {
-  const Signature together = run_stretched_flow(MPI_COMM_WORLD, 50, with_sheet);
-  const Signature alone = run_stretched_flow(MPI_COMM_SELF, 50, with_sheet);
   const double difference = alone.difference(together);
   int rank = 0;
   int ranks = 1;
@@ -23,6 +24,36 @@ void expect_same_on_all_ranks(bool with_sheet)
   EXPECT_LE(difference, 1e-11);
 }
 
+void expect_same_on_all_ranks(bool with_sheet)
+{
+  expect_same(run_stretched_flow(MPI_COMM_WORLD, 50, with_sheet), run_stretched_flow(MPI_COMM_SELF, 50, with_sheet));
+}
+
+/// Every velocity and pressure of Ethier and Steinman's flow in skewed cells between curved sides, summed with weights.
+Signature run_curvilinear_flow(MPI_Comm comm)
+{
+  const EthierSteinman exact{.viscosity = 0.05};
+  const Index3 cells{14, 12, 16};
+  const auto map = [wave = Waved{}](const Vec3& s) -> Vec3 { return 2.0 * wave(s) - Vec3::Ones(); };
+  TestFlow flow(cells, mapped_nodes(cells, map),
+                sides_of({false, false, false}, {fluid::SideKind::Velocity, exact.function()}),
+                {.viscosity = exact.viscosity}, comm);
+  flow.solver.start(exact.function(), 0.0);
+  flow.advance(0.01, 50);
+  Signature signature;
+  const auto u = views(flow.solver.state().u);
+  const auto p = flow.solver.state().p.view();
+  for (int k = 0; k < cells[2]; k += 3)
+    for (int j = 0; j < cells[1]; j += 3) {
+      const Index3 probe{j % 14, j, k};
+      const bool mine = flow.grid.owned().contains(probe);
+      for (int d = 0; d < 3; ++d)
+        signature.values.push_back(flow.grid.ranks().sum(mine ? u[d](probe) : 0.0));
+      signature.values.push_back(flow.grid.ranks().sum(mine ? p(probe) : 0.0));
+    }
+  return signature;
+}
+
 TEST(FlowOnRanks, IsThatOfOneRankAfterFiftySteps)
 {
   expect_same_on_all_ranks(/*with_sheet=*/false);
@@ -31,6 +62,11 @@ TEST(FlowOnRanks, IsThatOfOneRankAfterFiftySteps)
 TEST(FlowOnRanks, IsThatOfOneRankAfterFiftyStepsAroundAMovingSheet)
 {
   expect_same_on_all_ranks(/*with_sheet=*/true);
+}
+
+TEST(FlowOnRanks, IsThatOfOneRankAfterFiftyStepsOnACurvilinearGrid)
+{
+  expect_same(run_curvilinear_flow(MPI_COMM_WORLD), run_curvilinear_flow(MPI_COMM_SELF));
 }
 
 }  // namespace
