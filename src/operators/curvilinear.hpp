@@ -26,7 +26,7 @@ struct GradientStencil {
   double cross_high[3][3];  ///< of the one above
 
   template <int a>
-  LUFF_KERNEL void load(const grid::Curvilinear& m, int i, int j, int k)
+  LUFF_INLINE_KERNEL void load(const grid::Curvilinear& m, int i, int j, int k)
   {
     using S = Step<a>;
     const View<const double>& G = m.G[a];
@@ -36,7 +36,7 @@ struct GradientStencil {
     load_cross<a, (a + 2) % 3>(m, i, j, k);
   }
   template <int a, int b>
-  LUFF_KERNEL void load_cross(const grid::Curvilinear& m, int i, int j, int k)
+  LUFF_INLINE_KERNEL void load_cross(const grid::Curvilinear& m, int i, int j, int k)
   {
     using S = Step<a>;
     const View<const double>& G = m.G[a < b ? grid::symmetric(a, b) : grid::symmetric(b, a)];
@@ -45,14 +45,14 @@ struct GradientStencil {
   }
 
   /// sum_f F_f outwards.
-  LUFF_KERNEL double net_outflow(const View<const double>& u, int i, int j, int k) const
+  LUFF_INLINE_KERNEL double net_outflow(const View<const double>& u, int i, int j, int k) const
   {
     return along<0>(u, i, j, k) + along<1>(u, i, j, k) + along<2>(u, i, j, k);
   }
 
  private:
   template <int a>
-  LUFF_KERNEL double along(const View<const double>& u, int i, int j, int k) const
+  LUFF_INLINE_KERNEL double along(const View<const double>& u, int i, int j, int k) const
   {
     using S = Step<a>;
     return high[a] * (u(i + S::i, j + S::j, k + S::k) - u(i, j, k)) -
@@ -61,7 +61,7 @@ struct GradientStencil {
   }
   /// [w_ab(+a) - w_ab(-a)]/2
   template <int a, int b>
-  LUFF_KERNEL double across(const View<const double>& u, int i, int j, int k) const
+  LUFF_INLINE_KERNEL double across(const View<const double>& u, int i, int j, int k) const
   {
     using S = Step<a>;
     using T = Step<b>;
@@ -77,13 +77,13 @@ struct AreaVector {
   double x, y, z;
 };
 template <int a>
-LUFF_KERNEL AreaVector centre_area(const grid::Curvilinear& m, int i, int j, int k)
+LUFF_INLINE_KERNEL AreaVector centre_area(const grid::Curvilinear& m, int i, int j, int k)
 {
   using S = Step<a>;
   const auto sum = [&](const View<const double>& s) { return s(i, j, k) + s(i + S::i, j + S::j, k + S::k); };
   return {sum(m.S[a][0]), sum(m.S[a][1]), sum(m.S[a][2])};
 }
-LUFF_KERNEL inline AreaVector cross(const AreaVector& a, const AreaVector& b)
+LUFF_INLINE_KERNEL AreaVector cross(const AreaVector& a, const AreaVector& b)
 {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }

@@ -10,15 +10,15 @@ namespace luff::operators {
 namespace {
 
 template <int a>
-LUFF_KERNEL int along(int i, int j, int k)
+LUFF_INLINE_KERNEL int along(int i, int j, int k)
 {
   return a == 0 ? i : a == 1 ? j : k;
 }
 
 /// Convection and diffusion of one component through the two faces normal to axis a, per volume.
 template <int a, class Metric>
-LUFF_KERNEL double axis_rate(const Metric& m, const View<const double>& u, const View<const double>& U,
-                             double viscosity, double inverse_volume, int i, int j, int k)
+LUFF_INLINE_KERNEL double axis_rate(const Metric& m, const View<const double>& u, const View<const double>& U,
+                                    double viscosity, double inverse_volume, int i, int j, int k)
 {
   using S = Step<a>;
   const int l = along<a>(i, j, k);
@@ -35,7 +35,7 @@ LUFF_KERNEL double axis_rate(const Metric& m, const View<const double>& u, const
 
 /// S . v of the low face normal to a, v the mean of its two cells.
 template <int a, class Metric>
-LUFF_KERNEL double flux_of_mean(const Metric& m, const View3<const double>& v, int i, int j, int k)
+LUFF_INLINE_KERNEL double flux_of_mean(const Metric& m, const View3<const double>& v, int i, int j, int k)
 {
   using S = Step<a>;
   if constexpr (grid::is_curvilinear<Metric>) {
@@ -98,13 +98,28 @@ void advance_straight(const Metric m, const IndexBox& owned, const MomentumField
 
 /// sum_f U_f (u_P + u_N)/2 outwards.
 template <int a>
-LUFF_KERNEL double net_convection(const View<const double>& u, const View<const double>& U, int i, int j, int k)
+LUFF_INLINE_KERNEL double net_convection(const View<const double>& u, const View<const double>& U, int i, int j, int k)
 {
   using S = Step<a>;
   return 0.5 * (U(i + S::i, j + S::j, k + S::k) * (u(i, j, k) + u(i + S::i, j + S::j, k + S::k)) -
                 U(i, j, k) * (u(i - S::i, j - S::j, k - S::k) + u(i, j, k)));
 }
 
+/// One component of the stage in one cell.
+LUFF_INLINE_KERNEL void advance_component(const GradientStencil& stencil, double inverse_volume,
+                                          const View<const double>& u, const View3<const double>& U,
+                                          const MomentumTerms& terms, double force, const View<double>& N,
+                                          const View<double>& du, int i, int j, int k)
+{
+  const double convection =
+      net_convection<0>(u, U[0], i, j, k) + net_convection<1>(u, U[1], i, j, k) + net_convection<2>(u, U[2], i, j, k);
+  const double N_new = inverse_volume * (terms.viscosity * stencil.net_outflow(u, i, j, k) - convection) + force;
+  du(i, j, k) += terms.weights.new_rate * N_new + terms.weights.old_rate * N(i, j, k);
+  N(i, j, k) = N_new;
+}
+
+/// The components are written out: a loop over them would keep the one over cells from being vectorised (59 instead of
+/// 25 ns per cell).
 void advance_curvilinear(const grid::Curvilinear m, const IndexBox& owned, const MomentumFields& fields,
                          const MomentumTerms& terms)
 {
@@ -114,15 +129,12 @@ void advance_curvilinear(const grid::Curvilinear m, const IndexBox& owned, const
     stencil.load<1>(m, i, j, k);
     stencil.load<2>(m, i, j, k);
     const double inverse_volume = 1.0 / m.V(i, j, k);
-    for (int c = 0; c < 3; ++c) {
-      const View<const double>& u = fields.u[c];
-      const double convection = net_convection<0>(u, fields.U[0], i, j, k) +
-                                net_convection<1>(u, fields.U[1], i, j, k) + net_convection<2>(u, fields.U[2], i, j, k);
-      const double diffusion = terms.viscosity * stencil.net_outflow(u, i, j, k);
-      const double N_new = inverse_volume * (diffusion - convection) + terms.force[c];
-      fields.increment[c](i, j, k) += terms.weights.new_rate * N_new + terms.weights.old_rate * fields.rate[c](i, j, k);
-      fields.rate[c](i, j, k) = N_new;
-    }
+    advance_component(stencil, inverse_volume, fields.u[0], fields.U, terms, terms.force[0], fields.rate[0],
+                      fields.increment[0], i, j, k);
+    advance_component(stencil, inverse_volume, fields.u[1], fields.U, terms, terms.force[1], fields.rate[1],
+                      fields.increment[1], i, j, k);
+    advance_component(stencil, inverse_volume, fields.u[2], fields.U, terms, terms.force[2], fields.rate[2],
+                      fields.increment[2], i, j, k);
   });
 }
 
@@ -169,7 +181,7 @@ void recover_curvilinear(const grid::Curvilinear m, const IndexBox& owned, const
 
 /// sum_d 1/h_d^2 of a cell.
 template <class Metric>
-LUFF_KERNEL double sum_of_inverse_squares(const Metric& m, int i, int j, int k)
+LUFF_INLINE_KERNEL double sum_of_inverse_squares(const Metric& m, int i, int j, int k)
 {
   if constexpr (grid::is_curvilinear<Metric>) {
     return (m.G[0](i, j, k) + m.G[1](i, j, k) + m.G[2](i, j, k)) / m.V(i, j, k);
@@ -183,7 +195,7 @@ LUFF_KERNEL double sum_of_inverse_squares(const Metric& m, int i, int j, int k)
 
 /// 1/V of a cell.
 template <class Metric>
-LUFF_KERNEL double inverse_volume(const Metric& m, int i, int j, int k)
+LUFF_INLINE_KERNEL double inverse_volume(const Metric& m, int i, int j, int k)
 {
   if constexpr (grid::is_curvilinear<Metric>)
     return 1.0 / m.V(i, j, k);

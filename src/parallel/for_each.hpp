@@ -17,6 +17,8 @@
 #else
 #define LUFF_KERNEL
 #endif
+/// A function that kernels call: a call that is not inlined keeps the loop over cells from being vectorised.
+#define LUFF_INLINE_KERNEL LUFF_KERNEL inline __attribute__((always_inline))
 
 namespace luff {
 

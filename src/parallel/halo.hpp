@@ -12,8 +12,8 @@
 namespace luff {
 
 /// Fills the halos of fields over one decomposition: wraps periodic rows along i, then exchanges along j, then k, each
-/// with the halos of the other axes, so that edges and corners are right too.  Halos on domain boundaries are left alone;
-/// where they were filled before, neighbours get theirs.
+/// with the halos of the other axes, so that edges and corners are right too.  Halos on domain boundaries are left
+/// alone; where they were filled before, neighbours get theirs.
 ///
 /// `owned` and `cells` may be those of a coarser level that is split among the same ranks.
 class HaloExchange {
