@@ -366,9 +366,7 @@ void FlowSolver::update_load_fields()
   const auto timer = profile_.time(Phase::Loads);
   const double w = state_.steps > 1 ? 0.5 : 0.0;
   const auto p_load = p_load_.view();
-  for_each_cell(grid_.owned(), [p_load, w, p = p_.view(), p_old = state_.p.view()] LUFF_KERNEL(int i, int j, int k) {
-    p_load(i, j, k) = (1.0 + w) * p(i, j, k) - w * p_old(i, j, k);
-  });
+  operators::extrapolate(grid_.owned(), p_.view(), state_.p.view(), w, p_load);
   for (const Index3& c : links_.flipped())
     p_load(c) = p_.view()(c);
   halo_.exchange({p_load, u_[0].view(), u_[1].view(), u_[2].view()});
@@ -379,7 +377,7 @@ immersed::LoadFields FlowSolver::load_fields() const
 {
   return {.p = p_load_.view(),
           .u = views(u_),
-          .u_star = u_star_,
+          .u_star = std::span<const Vec3>(u_star_.data(), u_star_.size()),
           .density = options_.density,
           .viscosity = options_.viscosity};
 }
@@ -398,10 +396,7 @@ std::vector<immersed::SideTraction> FlowSolver::tractions() const
 
 double FlowSolver::largest_speed() const
 {
-  const auto u = views(state_.u);
-  return std::sqrt(grid_.ranks().max(max_cells(grid_.owned(), [u] LUFF_KERNEL(int i, int j, int k) {
-    return u[0](i, j, k) * u[0](i, j, k) + u[1](i, j, k) * u[1](i, j, k) + u[2](i, j, k) * u[2](i, j, k);
-  })));
+  return operators::largest_speed(grid_, views(state_.u));
 }
 
 double FlowSolver::largest_flux_velocity() const

@@ -203,6 +203,26 @@ LUFF_INLINE_KERNEL double inverse_volume(const Metric& m, int i, int j, int k)
     return m.template inverse_width<0>(i) * m.template inverse_width<1>(j) * m.template inverse_width<2>(k);
 }
 
+template <class Metric>
+double largest_convective_rate(const Metric m, const IndexBox& owned, const View3<const double>& U)
+{
+  const auto Ux = U[0];
+  const auto Uy = U[1];
+  const auto Uz = U[2];
+  return max_cells(owned, [=] LUFF_KERNEL(int i, int j, int k) {
+    const auto larger = [](double a, double b) { return a > b ? a : b; };
+    return inverse_volume(m, i, j, k) * (larger(std::abs(Ux(i, j, k)), std::abs(Ux(i + 1, j, k))) +
+                                         larger(std::abs(Uy(i, j, k)), std::abs(Uy(i, j + 1, k))) +
+                                         larger(std::abs(Uz(i, j, k)), std::abs(Uz(i, j, k + 1))));
+  });
+}
+
+template <class Metric>
+double largest_sum_of_inverse_squares(const Metric m, const IndexBox& owned)
+{
+  return max_cells(owned, [=] LUFF_KERNEL(int i, int j, int k) { return sum_of_inverse_squares(m, i, j, k); });
+}
+
 }  // namespace
 
 void advance_momentum(const grid::Grid& grid, const View3<const double>& u, const View3<const double>& U,
@@ -241,24 +261,27 @@ void recover_velocity(const grid::Grid& grid, const View3<const double>& U, cons
 
 double convective_rate(const grid::Grid& grid, const View3<const double>& U)
 {
-  return grid.ranks().max(grid.visit([&](const auto m) {
-    const auto Ux = U[0];
-    const auto Uy = U[1];
-    const auto Uz = U[2];
-    return max_cells(grid.owned(), [=] LUFF_KERNEL(int i, int j, int k) {
-      const auto larger = [](double a, double b) { return a > b ? a : b; };
-      return inverse_volume(m, i, j, k) * (larger(std::abs(Ux(i, j, k)), std::abs(Ux(i + 1, j, k))) +
-                                           larger(std::abs(Uy(i, j, k)), std::abs(Uy(i, j + 1, k))) +
-                                           larger(std::abs(Uz(i, j, k)), std::abs(Uz(i, j, k + 1))));
-    });
-  }));
+  return grid.ranks().max(grid.visit([&](const auto m) { return largest_convective_rate(m, grid.owned(), U); }));
 }
 
 double diffusive_rate(const grid::Grid& grid)
 {
-  return grid.ranks().max(grid.visit([&](const auto m) {
-    return max_cells(grid.owned(), [=] LUFF_KERNEL(int i, int j, int k) { return sum_of_inverse_squares(m, i, j, k); });
-  }));
+  return grid.ranks().max(grid.visit([&](const auto m) { return largest_sum_of_inverse_squares(m, grid.owned()); }));
+}
+
+double largest_speed(const grid::Grid& grid, const View3<const double>& u)
+{
+  return std::sqrt(grid.ranks().max(max_cells(grid.owned(), [u] LUFF_KERNEL(int i, int j, int k) {
+    return u[0](i, j, k) * u[0](i, j, k) + u[1](i, j, k) * u[1](i, j, k) + u[2](i, j, k) * u[2](i, j, k);
+  })));
+}
+
+void extrapolate(const IndexBox& owned, const View<const double>& now, const View<const double>& before, double w,
+                 const View<double>& result)
+{
+  for_each_cell(owned, [=] LUFF_KERNEL(int i, int j, int k) {
+    result(i, j, k) = (1.0 + w) * now(i, j, k) - w * before(i, j, k);
+  });
 }
 
 }  // namespace luff::operators

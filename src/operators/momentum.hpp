@@ -43,4 +43,11 @@ void recover_velocity(const grid::Grid& grid, const View3<const double>& U, cons
 /// number.
 [[nodiscard]] double diffusive_rate(const grid::Grid& grid);
 
+/// Largest |u| over cells [L/T].  Over all ranks.
+[[nodiscard]] double largest_speed(const grid::Grid& grid, const View3<const double>& u);
+
+/// (1 + w) now - w before in every owned cell.
+void extrapolate(const IndexBox& owned, const View<const double>& now, const View<const double>& before, double w,
+                 const View<double>& result);
+
 }  // namespace luff::operators

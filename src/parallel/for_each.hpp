@@ -11,14 +11,7 @@
 #include <omp.h>
 
 #include "parallel/index_box.hpp"
-
-#ifdef __CUDACC__
-#define LUFF_KERNEL __host__ __device__
-#else
-#define LUFF_KERNEL
-#endif
-/// A function that kernels call: a call that is not inlined keeps the loop over cells from being vectorised.
-#define LUFF_INLINE_KERNEL LUFF_KERNEL inline __attribute__((always_inline))
+#include "parallel/launch.hpp"
 
 namespace luff {
 
@@ -34,12 +27,16 @@ inline int threads_for(const IndexBox& box)
 template <class Kernel>
 void for_each_cell(const IndexBox& box, Kernel kernel)
 {
+#ifdef __CUDACC__
+  launch_cells(box, kernel);
+#else
 #pragma omp parallel for collapse(2) schedule(static) num_threads(threads_for(box))
   for (int k = box.lo[2]; k < box.hi[2]; ++k)
     for (int j = box.lo[1]; j < box.hi[1]; ++j)
 #pragma omp simd
       for (int i = box.lo[0]; i < box.hi[0]; ++i)
         kernel(i, j, k);
+#endif
 }
 
 /// function(i, j, k) for every cell of the box, i fastest, on the calling thread: for user functions of place and time.
@@ -83,6 +80,9 @@ std::vector<double> row_results(const IndexBox& box, Row row)
 template <class Kernel>
 double sum_cells(const IndexBox& box, Kernel kernel)
 {
+#ifdef __CUDACC__
+  const auto partial = launch_row_sums(box, kernel);
+#else
   const auto partial = detail::row_results(box, [&](int j, int k) {
     double sum = 0.0;
 #pragma omp simd reduction(+ : sum)
@@ -90,6 +90,7 @@ double sum_cells(const IndexBox& box, Kernel kernel)
       sum += kernel(i, j, k);
     return sum;
   });
+#endif
   double sum = 0.0;
   for (const double s : partial)
     sum += s;
@@ -100,6 +101,9 @@ double sum_cells(const IndexBox& box, Kernel kernel)
 template <class Kernel>
 double max_cells(const IndexBox& box, Kernel kernel)
 {
+#ifdef __CUDACC__
+  const auto partial = launch_row_maxima(box, kernel);
+#else
   const auto partial = detail::row_results(box, [&](int j, int k) {
     double largest = 0.0;
     double poison = 0.0;  // 0 * finite stays 0; 0 * NaN or infinity does not
@@ -111,6 +115,7 @@ double max_cells(const IndexBox& box, Kernel kernel)
     }
     return largest + poison;
   });
+#endif
   double largest = 0.0;
   for (const double m : partial) {
     if (!(m == m))
