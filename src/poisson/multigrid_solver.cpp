@@ -13,6 +13,33 @@ namespace luff::poisson {
 
 namespace {
 
+double sum_of(const IndexBox& box, const View<const double>& values)
+{
+  return sum_cells(box, [=] LUFF_KERNEL(int i, int j, int k) { return values(i, j, k); });
+}
+
+double sum_of_squares(const IndexBox& box, const View<const double>& values)
+{
+  return sum_cells(box, [=] LUFF_KERNEL(int i, int j, int k) { return values(i, j, k) * values(i, j, k); });
+}
+
+template <class Metric>
+LUFF_INLINE_KERNEL double volume_of(const Metric& metric, int i, int j, int k)
+{
+  if constexpr (grid::is_curvilinear<Metric>)
+    return metric.V(i, j, k);
+  else
+    return metric.volume(i, j, k);
+}
+
+/// Sums of V values and of V over the cells of a box.
+template <class Metric>
+std::array<double, 2> sums_by_volume(const Metric metric, const IndexBox& box, const View<const double>& values)
+{
+  return {sum_cells(box, [=] LUFF_KERNEL(int i, int j, int k) { return volume_of(metric, i, j, k) * values(i, j, k); }),
+          sum_cells(box, [=] LUFF_KERNEL(int i, int j, int k) { return volume_of(metric, i, j, k); })};
+}
+
 /// Single precision gains at most about six digits in a round; conjugate gradients stop earlier where it gains fewer.
 constexpr double round_tolerance = 5e-7;
 
@@ -204,20 +231,10 @@ std::vector<double> MultigridSolver::mean_of_all(const View<const double>& value
 {
   const IndexBox& box = grid_.owned();
   std::array<double, 2> sums{};
-  if (!by_volume) {
-    sums = {sum_cells(box, [=](int i, int j, int k) { return values(i, j, k); }), static_cast<double>(box.volume())};
-  } else {
-    grid_.visit([&](const auto& metric) {
-      const auto volume = [metric](int i, int j, int k) {
-        if constexpr (grid::is_curvilinear<std::decay_t<decltype(metric)>>)
-          return metric.V(i, j, k);
-        else
-          return metric.volume(i, j, k);
-      };
-      sums[0] = sum_cells(box, [=](int i, int j, int k) { return volume(i, j, k) * values(i, j, k); });
-      sums[1] = sum_cells(box, [=](int i, int j, int k) { return volume(i, j, k); });
-    });
-  }
+  if (!by_volume)
+    sums = {sum_of(box, values), static_cast<double>(box.volume())};
+  else
+    grid_.visit([&](const auto& metric) { sums = sums_by_volume(metric, box, values); });
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, grid_.ranks().comm());
   return {sums[0] / sums[1]};
 }
@@ -347,8 +364,7 @@ double MultigridSolver::load_right_hand_side(const Outflow& outflow)
   double shift = mean;
   if (!one || removed > 1e-6 * outflow.norm * outflow.norm) {
     remove_means(net, /*by_volume=*/false);
-    norm = std::sqrt(
-        grid_.ranks().sum(sum_cells(grid_.owned(), [=](int i, int j, int k) { return net(i, j, k) * net(i, j, k); })));
+    norm = std::sqrt(grid_.ranks().sum(sum_of_squares(grid_.owned(), net)));
     shift = 0.0;
   }
   scale_ = norm > 0.0 ? 1.0 / norm : 0.0;
