@@ -47,6 +47,8 @@ FlowSolver::FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries b
       increment_(make_field3<double>(grid.owned())),
       rate_(make_field3<double>(grid.owned()))
 {
+  if (grid.kind() == grid::Kind::Curvilinear)
+    cross_terms_.emplace(grid);
 }
 
 void FlowSolver::start(const VectorFunction& velocity, double t_0)
@@ -140,6 +142,8 @@ void FlowSolver::find_cut_links(const immersed::SheetMotion& predicted, double s
   {
     const auto timer = profile_.time(Phase::Search);
     links_.freeze(predicted, step_.dt, speed, views(std::as_const(state_.U)));
+    if (cross_terms_)
+      cross_terms_->freeze(links_);
   }
   const auto timer = profile_.time(Phase::Pressure);
   std::vector<poisson::FaceIndex> blocked;
@@ -162,6 +166,8 @@ void FlowSolver::advance_stage(int stage)
     operators::advance_momentum(grid_, views(std::as_const(u_)), views(std::as_const(U_)), options_.viscosity, force,
                                 weights, views(rate_), views(increment_));
   }
+  if (cross_terms_)
+    change_cross_terms_beside(weights);
   if (!options_.acceleration.constant)
     add_varying_force(weights, step_.t_old + stage_start[stage] * step_.dt);
   for (std::size_t n = 0; n < links_.cells().size(); ++n)
@@ -180,6 +186,8 @@ void FlowSolver::replace_rates_of_cut_cells(int stage, const operators::StageWei
   for (std::size_t n = 0; n < cells.size(); ++n)
     terms_[n] = immersed::momentum_terms(grid_, links_, cells[n], views(std::as_const(u_)), options_.viscosity,
                                          {stage_start[stage]}, {stage_end[stage]});
+  if (cross_terms_)
+    add_cross_terms({stage_start[stage]});
   const double t = step_.t_old + stage_start[stage] * step_.dt;
   for (std::size_t n = 0; n < cells.size(); ++n) {
     const Index3& c = cells[n].cell;
@@ -187,6 +195,30 @@ void FlowSolver::replace_rates_of_cut_cells(int stage, const operators::StageWei
     for (int d = 0; d < 3; ++d)
       explicit_increment_[n][d] = increment_[d].view()(c) + weights.new_rate * terms_[n].explicit_rate[d] +
                                   weights.old_rate * rate_[d].view()(c);
+  }
+}
+
+/// nu/V times the net cross fluxes of cut cells.
+void FlowSolver::add_cross_terms(const StageTime& time)
+{
+  const auto u = views(std::as_const(u_));
+  cross_terms_->update(links_, u, time);
+  for (std::size_t n = 0; n < links_.cells().size(); ++n) {
+    const auto [i, j, k] = links_.cells()[n].cell;
+    terms_[n].explicit_rate +=
+        options_.viscosity / grid_.volume(i, j, k) * cross_terms_->net_outflow(links_.cells()[n], u);
+  }
+}
+
+/// In the neighbours of cut cells: what their stencil has taken from across the sheet is replaced.
+void FlowSolver::change_cross_terms_beside(const operators::StageWeights& weights)
+{
+  for (const Index3& c : cross_terms_->neighbours()) {
+    const Vec3 change = options_.viscosity / grid_.volume(c[0], c[1], c[2]) * cross_terms_->change_in_neighbour(c);
+    for (int d = 0; d < 3; ++d) {
+      rate_[d].view()(c) += change[d];
+      increment_[d].view()(c) += weights.new_rate * change[d];
+    }
   }
 }
 
@@ -369,7 +401,13 @@ void FlowSolver::update_load_fields()
   operators::extrapolate(grid_.owned(), p_.view(), state_.p.view(), w, p_load);
   for (const Index3& c : links_.flipped())
     p_load(c) = p_.view()(c);
-  halo_.exchange({p_load, u_[0].view(), u_[1].view(), u_[2].view()});
+  if (cross_terms_) {
+    fill_velocity_halo(views(u_), views(std::as_const(U_)));
+    cross_terms_->update(links_, views(std::as_const(u_)), {1.0, SheetVelocity::Current});
+    halo_.exchange({p_load});
+  } else {
+    halo_.exchange({p_load, u_[0].view(), u_[1].view(), u_[2].view()});
+  }
   boundary_.fill_pressure(p_load);
 }
 
@@ -379,7 +417,8 @@ immersed::LoadFields FlowSolver::load_fields() const
           .u = views(u_),
           .u_star = std::span<const Vec3>(u_star_.data(), u_star_.size()),
           .density = options_.density,
-          .viscosity = options_.viscosity};
+          .viscosity = options_.viscosity,
+          .cross = cross_terms_ ? &*cross_terms_ : nullptr};
 }
 
 immersed::SheetLoads FlowSolver::loads() const

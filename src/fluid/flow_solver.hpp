@@ -18,12 +18,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/profile.hpp"
 #include "core/time_step.hpp"
 #include "fluid/boundary.hpp"
+#include "immersed/cross_terms.hpp"
 #include "immersed/cut_cells.hpp"
 #include "immersed/cut_links.hpp"
 #include "immersed/loads.hpp"
@@ -98,6 +100,8 @@ class FlowSolver {
   void fill_velocity_halo(const View3<double>& u, const View3<const double>& U);
   void find_cut_links(const immersed::SheetMotion& predicted, double speed);
   void advance_stage(int stage);
+  void add_cross_terms(const immersed::StageTime& time);
+  void change_cross_terms_beside(const operators::StageWeights& weights);
   void add_varying_force(const operators::StageWeights& weights, double t);
   void replace_rates_of_cut_cells(int stage, const operators::StageWeights& weights);
   void freeze_pressure_push(int stage);
@@ -122,6 +126,7 @@ class FlowSolver {
   HaloExchange halo_;
   double diffusive_rate_;
   immersed::CutLinks links_;
+  std::optional<immersed::CrossTerms> cross_terms_;  ///< on curvilinear grids
   TimeStep step_;
   mutable Profile profile_;
   std::size_t sheet_vertices_ = 0;

@@ -1,46 +1,62 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "immersed/cut_cells.hpp"
 
-#include "parallel/vector_field.hpp"
+#include <Eigen/LU>
 
-#include <algorithm>
+#include "immersed/cell_metric.hpp"
+#include "immersed/cut_axis.hpp"
+#include "parallel/vector_field.hpp"
 
 namespace luff::immersed {
 
 namespace {
 
-/// The two links of a cell along one axis: side 0 below, side 1 above.
-struct AxisLinks {
-  std::array<int, 2> hit{open_link, open_link};  ///< the hit that this cell sees on each link
-  std::array<double, 2> length{};                ///< distance to the neighbour or to the sheet, clipped by theta_min
-  double span = 0.0;                             ///< H_d
-
-  [[nodiscard]] bool cut(int side) const { return hit[side] != open_link; }
-  /// v_k = nu/(h_k H_d)
-  [[nodiscard]] double exchange(int side, double viscosity) const { return viscosity / (length[side] * span); }
-};
-
-/// Relative distance of the sheet from the cell's centre on one of its links.
-double theta_from_cell(const CutLinks& links, const CutFace& face, int side)
+/// Speed at which the flow crosses the faces of a cell normal to an axis.
+double speed_across(const grid::Grid& grid, const Vec3& u, int axis, const Index3& cell)
 {
-  return side == 1 ? links.crossings()[face.first].theta : 1.0 - links.crossings()[face.last].theta;
+  if (grid.kind() != grid::Kind::Curvilinear)
+    return u[axis];
+  return u.dot(centre_area_vector(grid, axis, cell).normalized());
 }
 
-AxisLinks axis_links(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis)
+/// A value between two others, at the distances given from them.
+template <class Value>
+Value between(const std::array<Value, 2>& value, const std::array<double, 2>& distance)
 {
-  AxisLinks result;
-  for (int side = 0; side < 2; ++side) {
-    result.length[side] = grid.distance(axis, cut.cell[axis] + side);
-    const int f = cut.face[2 * axis + side];
-    if (f == open_link)
-      continue;
-    const CutFace& face = links.faces()[f];
-    result.hit[side] = side == 1 ? face.first : face.last;
-    result.length[side] *= std::max(theta_from_cell(links, face, side), theta_min);
-  }
-  const bool any = result.cut(0) || result.cut(1);
-  result.span = any ? 0.5 * (result.length[0] + result.length[1]) : grid.width(axis, cut.cell[axis]);
-  return result;
+  const double span = distance[0] + distance[1];
+  return span > 0.0 ? Value((value[0] * distance[1] + value[1] * distance[0]) / span)
+                    : Value(0.5 * (value[0] + value[1]));
+}
+
+/// Differences d_a per cell of a field beside a sheet whose normal flux sum_b G_ab d_b vanishes along the axes cut on
+/// both sides, where d_a is not known.
+Vec3 closed_differences(const grid::Curvilinear& metric, const CutCell& cut, const Vec3& known)
+{
+  Mat3 equations = Mat3::Identity();
+  Vec3 right = known;
+  for (int a = 0; a < 3; ++a)
+    if (cut.face[2 * a] != open_link && cut.face[2 * a + 1] != open_link) {
+      right[a] = 0.0;
+      for (int b = 0; b < 3; ++b)
+        equations(a, b) = metric.G[grid::symmetric(a, b)](cut.cell);
+    }
+  return equations.partialPivLu().solve(right);
+}
+
+/// The gradient whose components across the faces of a cell are `slope`, d_a/h_a: sum_a slope_a S_a/|S_a|.
+Vec3 gradient_of_slopes(const grid::Grid& grid, const CutCell& cut, const Vec3& slope)
+{
+  const grid::Curvilinear* const metric = curvilinear_metric(grid);
+  if (metric == nullptr)
+    return slope;
+  Vec3 width;
+  for (int a = 0; a < 3; ++a)
+    width[a] = width_across(grid, a, cut.cell);
+  const Vec3 difference = closed_differences(*metric, cut, slope.cwiseProduct(width));
+  Vec3 gradient = Vec3::Zero();
+  for (int a = 0; a < 3; ++a)
+    gradient += difference[a] / width[a] * centre_area_vector(grid, a, cut.cell).normalized();
+  return gradient;
 }
 
 }  // namespace
@@ -51,20 +67,19 @@ CutCellTerms momentum_terms(const grid::Grid& grid, const CutLinks& links, const
   CutCellTerms terms{Vec3::Zero(), Vec3::Zero(), 0.0};
   const Vec3 u_here = at(u, cut.cell);
   for (int axis = 0; axis < 3; ++axis) {
-    const AxisLinks axis_link = axis_links(grid, links, cut, axis);
-    std::array<Vec3, 2> u_beside;
+    const CutAxis axis_link = cut_axis(grid, links, cut, axis);
+    const std::array<Vec3, 2> u_beside = velocities_beside(links, cut, axis, axis_link, u, now);
     for (int side = 0; side < 2; ++side) {
       const double v = axis_link.exchange(side, viscosity);
       if (axis_link.cut(side)) {
-        u_beside[side] = links.velocity(axis_link.hit[side], now);
         terms.wall_rate += v;
         terms.wall_source += v * links.velocity(axis_link.hit[side], then);
       } else {
-        u_beside[side] = at(u, stepped(cut.cell, axis, side == 0 ? -1 : 1));
         terms.explicit_rate += v * (u_beside[side] - u_here);
       }
     }
-    terms.explicit_rate -= u_here[axis] / (axis_link.length[0] + axis_link.length[1]) * (u_beside[1] - u_beside[0]);
+    terms.explicit_rate -= speed_across(grid, u_here, axis, cut.cell) / (axis_link.length[0] + axis_link.length[1]) *
+                           (u_beside[1] - u_beside[0]);
   }
   return terms;
 }
@@ -74,7 +89,7 @@ Vec3 wall_source(const grid::Grid& grid, const CutLinks& links, const CutCell& c
 {
   Vec3 source = Vec3::Zero();
   for (int axis = 0; axis < 3; ++axis) {
-    const AxisLinks axis_link = axis_links(grid, links, cut, axis);
+    const CutAxis axis_link = cut_axis(grid, links, cut, axis);
     for (int side = 0; side < 2; ++side)
       if (axis_link.cut(side))
         source += axis_link.exchange(side, viscosity) * links.velocity(axis_link.hit[side], then);
@@ -84,44 +99,52 @@ Vec3 wall_source(const grid::Grid& grid, const CutLinks& links, const CutCell& c
 
 Vec3 pressure_gradient(const grid::Grid& grid, const CutCell& cut, const View<const double>& p)
 {
-  Vec3 gradient = Vec3::Zero();
+  Vec3 slope = Vec3::Zero();
   for (int axis = 0; axis < 3; ++axis) {
     const std::array<bool, 2> open{cut.face[2 * axis] == open_link, cut.face[2 * axis + 1] == open_link};
-    const std::array<double, 2> d{grid.distance(axis, cut.cell[axis]), grid.distance(axis, cut.cell[axis] + 1)};
+    const std::array<double, 2> d{distance_across(grid, axis, cut.cell),
+                                  distance_across(grid, axis, stepped(cut.cell, axis, 1))};
     const double p_here = p(cut.cell);
     const double low = open[0] ? (p_here - p(stepped(cut.cell, axis, -1))) / d[0] : 0.0;
     const double high = open[1] ? (p(stepped(cut.cell, axis, 1)) - p_here) / d[1] : 0.0;
     if (open[0] && open[1])
-      gradient[axis] = (d[1] * low + d[0] * high) / (d[0] + d[1]);
+      slope[axis] = (d[1] * low + d[0] * high) / (d[0] + d[1]);
     else
-      gradient[axis] = low + high;
+      slope[axis] = low + high;
   }
-  return gradient;
+  return gradient_of_slopes(grid, cut, slope);
 }
 
 void recover_velocity(const grid::Grid& grid, const CutLinks& links, const View3<const double>& U,
                       const StageTime& time, const View3<double>& u)
 {
-  for (const CutCell& cut : links.cells())
+  for (const CutCell& cut : links.cells()) {
+    // The rows of S . u = flux, all divided by the areas of faces.
+    Mat3 S = Mat3::Identity();
+    Vec3 flux;
     for (int axis = 0; axis < 3; ++axis) {
+      const CutAxis along = cut_axis(grid, links, cut, axis);
       std::array<double, 2> value{};
       std::array<double, 2> distance{};
+      std::array<Vec3, 2> normal;
       for (int side = 0; side < 2; ++side) {
-        const Index3 face_cell = stepped(cut.cell, axis, side);
-        const int f = cut.face[2 * axis + side];
-        if (f == open_link) {
-          value[side] = U[axis](face_cell) / grid.area(axis, cut.cell[0], cut.cell[1], cut.cell[2]);
-          distance[side] = 0.5 * grid.width(axis, cut.cell[axis]);
+        const Index3 face = stepped(cut.cell, axis, side);
+        normal[side] = face_normal(grid, axis, face);
+        if (along.cut(side)) {
+          value[side] = links.velocity(along.hit[side], time).dot(normal[side]);
+          distance[side] = along.theta[side] * along.distance[side];
         } else {
-          const CutFace& face = links.faces()[f];
-          value[side] = links.velocity(side == 1 ? face.first : face.last, time)[axis];
-          distance[side] = theta_from_cell(links, face, side) * grid.distance(axis, face_cell[axis]);
+          value[side] = U[axis](face) / grid.area(axis, face[0], face[1], face[2]);
+          distance[side] = 0.5 * along.width;
         }
       }
-      const double span = distance[0] + distance[1];
-      u[axis](cut.cell) =
-          span > 0.0 ? (value[0] * distance[1] + value[1] * distance[0]) / span : 0.5 * (value[0] + value[1]);
+      flux[axis] = between(value, distance);
+      S.row(axis) = between(normal, distance).transpose();
     }
+    const Vec3 velocity = grid.kind() == grid::Kind::Curvilinear ? Vec3(S.partialPivLu().solve(flux)) : flux;
+    for (int d = 0; d < 3; ++d)
+      u[d](cut.cell) = velocity[d];
+  }
 }
 
 }  // namespace luff::immersed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "immersed/cut_links.hpp"
 
+#include "immersed/cell_metric.hpp"
 #include "surface/mesh.hpp"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ void CutLinks::freeze(const SheetMotion& predicted, double dt, double speed, con
 {
   dt_ = dt;
   triangles_ = predicted.triangles;
-  crossings_ = find_crossings(grid_, predicted.position, predicted.triangles);
+  find_crossings(predicted.position);
   const std::size_t n = crossings_.size();
   normals_.resize(n);
   predicted_velocity_.resize(n);
@@ -47,6 +48,21 @@ void CutLinks::freeze(const SheetMotion& predicted, double dt, double speed, con
   find_cells();
   find_flipped();
   start_offsets(speed, U_old);
+}
+
+void CutLinks::find_crossings(std::span<const Vec3> positions)
+{
+  if (grid_.kind() != grid::Kind::Curvilinear) {
+    crossings_ = immersed::find_crossings(grid_, positions, triangles_);
+    return;
+  }
+  if (triangles_.empty()) {
+    crossings_.clear();
+    return;
+  }
+  if (!tree_)
+    tree_ = make_link_tree(grid_);
+  crossings_ = tree_->find_crossings(positions, triangles_);
 }
 
 void CutLinks::set_velocity(std::span<const Vec3> velocity)
@@ -117,20 +133,22 @@ void CutLinks::start_offsets(double speed, const View3<const double>& U_old)
     const Vec3& u_first = predicted_velocity_[face.first];
     const Vec3& u_last = predicted_velocity_[face.last];
     const double fastest = std::max({speed, u_first.norm(), u_last.norm()});
-    face.decay_time = fastest > 0.0 ? grid_.distance(face.axis, face.cell[face.axis]) / fastest : dt_;
+    face.decay_time = fastest > 0.0 ? distance_across(grid_, face.axis, face.cell) / fastest : dt_;
     if (const auto* old = old_offset(key(face.axis, face.cell))) {
       face.offset = old->second;
     } else {
       const auto [i, j, k] = face.cell;
+      const Vec3 normal = face_normal(grid_, face.axis, face.cell);
       face.offset =
-          U_old[face.axis](i, j, k) / grid_.area(face.axis, i, j, k) - 0.5 * (u_first[face.axis] + u_last[face.axis]);
+          U_old[face.axis](i, j, k) / grid_.area(face.axis, i, j, k) - 0.5 * (u_first.dot(normal) + u_last.dot(normal));
     }
   }
 }
 
 double CutLinks::face_velocity(const CutFace& face, const StageTime& time) const
 {
-  const double sheet = 0.5 * (velocity(face.first, time)[face.axis] + velocity(face.last, time)[face.axis]);
+  const Vec3 normal = face_normal(grid_, face.axis, face.cell);
+  const double sheet = 0.5 * (velocity(face.first, time).dot(normal) + velocity(face.last, time).dot(normal));
   return sheet + face.offset * std::exp(-time.fraction * dt_ / face.decay_time);
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/vec3.hpp"
 #include "grid/grid.hpp"
 #include "immersed/crossings.hpp"
+#include "immersed/link_tree.hpp"
 #include "parallel/field.hpp"
 
 namespace luff::immersed {
@@ -68,6 +70,7 @@ class CutLinks {
   ///   eps = the old offset where the link was cut at t^n, U^n_f/A_f - u_b^0 . e where it was not,  tau = d/speed.
   ///
   /// `speed` [L/T]: the reference speed of the flow; the sheet's own is used where it is larger.
+  /// Collective.
   void freeze(const SheetMotion& predicted, double dt, double speed, const View3<const double>& U_old);
 
   /// Velocity u_b of the current coupling iterate at the vertices.
@@ -102,6 +105,7 @@ class CutLinks {
   void impose_fluxes(const StageTime& time, const View3<double>& U) const;
 
  private:
+  void find_crossings(std::span<const Vec3> positions);
   void find_faces();
   void find_cells();
   void find_flipped();
@@ -113,6 +117,7 @@ class CutLinks {
 
   const grid::Grid& grid_;
   double dt_ = 0.0;
+  std::unique_ptr<const LinkTree> tree_;  ///< of curvilinear grids, once there is a sheet
   std::vector<std::array<int, 3>> triangles_;
   std::vector<Crossing> crossings_;
   std::vector<Vec3> normals_;

@@ -9,6 +9,8 @@
 #include <optional>
 
 #include "parallel/for_each.hpp"
+#include "parallel/halo.hpp"
+#include "parallel/vector_field.hpp"
 
 namespace luff::immersed {
 
@@ -267,6 +269,34 @@ std::vector<Crossing> LinkTree::find_crossings(std::span<const Vec3> positions,
   }
   sort(found, cells_);
   return found;
+}
+
+std::unique_ptr<const LinkTree> make_link_tree(const grid::Grid& grid)
+{
+  auto centres = make_field3<double>(grid.owned());
+  for_each_cell_in_order(grid.owned(), [&](int i, int j, int k) {
+    const Vec3 x = grid.centre(i, j, k);
+    for (int d = 0; d < 3; ++d)
+      centres[d](i, j, k) = x[d];
+  });
+  HaloExchange(grid.ranks()).exchange(views(centres));
+  std::array<Vec3, 3> periods{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!grid.ranks().periodic(axis))
+      continue;
+    // The rank of the first cell knows the one before it here and, in its halo, where the neighbour has it.
+    const Index3 before = stepped({0, 0, 0}, axis, -1);
+    if (grid.owned().contains(0, 0, 0)) {
+      const Vec3 period = at(views(centres), before) - grid.centre(before);
+      const Vec3 link = grid.centre(0, 0, 0) - grid.centre(before);
+      constexpr double ring = 0x1p-30;  // far above round-off, far below the one cell that a period has at least
+      if (period.norm() > ring * link.norm())
+        periods[axis] = period;
+    }
+    for (int d = 0; d < 3; ++d)
+      periods[axis][d] = grid.ranks().sum(periods[axis][d]);
+  }
+  return std::make_unique<const LinkTree>(grid.ranks(), std::move(centres), periods);
 }
 
 }  // namespace luff::immersed

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "grid/grid.hpp"
 #include "immersed/crossings.hpp"
 #include "immersed/predicates.hpp"
 #include "parallel/decomposition.hpp"
@@ -72,5 +74,8 @@ class LinkTree {
   Field3<double> centres_;
   std::vector<Branch> branches_;
 };
+
+/// The links of a curvilinear grid.  A period below round-off is that of a closed ring.  Collective.
+[[nodiscard]] std::unique_ptr<const LinkTree> make_link_tree(const grid::Grid& grid);
 
 }  // namespace luff::immersed

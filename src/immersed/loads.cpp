@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "immersed/loads.hpp"
 
+#include "immersed/cell_metric.hpp"
+#include "immersed/cut_axis.hpp"
 #include "parallel/vector_field.hpp"
 
 #include <algorithm>
@@ -32,34 +34,39 @@ struct HitView {
 
 /// nu times the velocity gradient that the momentum stencil of the cell takes its momentum with; see sheet_loads().
 Vec3 wall_shear(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const HitView& view,
-                double to_sheet, double to_behind)
+                const CutAxis& along)
 {
+  const int side = view.side;
   const Vec3 u_b = links.velocity(view.hit(links), {1.0, SheetVelocity::Current});
-  const Vec3 at_wall = fields.viscosity / to_sheet * (fields.u_star[view.n] - u_b);
-  if (!view.open_behind())
-    return at_wall;
-  const Vec3 behind = fields.viscosity / to_behind * (at(fields.u, view.behind()) - at(fields.u, view.cut.cell));
-  const double excess = grid.width(view.axis, view.cut.cell[view.axis]) / (0.5 * (to_sheet + to_behind)) - 1.0;
-  return at_wall + excess * (at_wall - behind);
+  Vec3 shear = fields.viscosity / along.length[side] * (fields.u_star[view.n] - u_b);
+  if (view.open_behind()) {
+    const double areas = along.area_ratio[side] / along.area_ratio[1 - side];
+    const Vec3 behind =
+        areas * fields.viscosity / along.length[1 - side] * (at(fields.u, view.behind()) - at(fields.u, view.cut.cell));
+    shear += (along.width / along.span - 1.0) * (shear - behind);
+  }
+  if (fields.cross == nullptr)
+    return shear;
+  const auto [i, j, k] = stepped(view.cut.cell, view.axis, side);
+  const Vec3 cross = fields.cross->at_wall(view.cut, view.axis, side, fields.u) / grid.area(view.axis, i, j, k);
+  return shear + (side == 1 ? -1.0 : 1.0) * fields.viscosity * cross;
 }
 
 HitTraction one_sided(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const HitView& view)
 {
-  const CutFace& face = view.face(links);
-  const double d = grid.distance(view.axis, face.cell[view.axis]);
-  const double d_behind = grid.distance(view.axis, view.cut.cell[view.axis] + 1 - view.side);
-  const double theta = view.side == 1 ? links.crossings()[face.first].theta : 1.0 - links.crossings()[face.last].theta;
+  const CutAxis along = cut_axis(grid, links, view.cut, view.axis);
   const double p_here = fields.p(view.cut.cell);
-  const double slope = view.open_behind() ? (p_here - fields.p(view.behind())) / d_behind : 0.0;  // towards the sheet
-  return {.pressure = fields.density * (p_here + theta * d * slope),
-          .viscous = fields.density * wall_shear(grid, links, fields, view, std::max(theta, theta_min) * d, d_behind)};
+  const double slope = view.open_behind() ? (p_here - fields.p(view.behind())) / along.distance[1 - view.side]
+                                          : 0.0;  // towards the sheet
+  return {.pressure = fields.density * (p_here + along.theta[view.side] * along.distance[view.side] * slope),
+          .viscous = fields.density * wall_shear(grid, links, fields, view, along)};
 }
 
 /// The side of a hit that looks into the gap between two hits of one link: mean pressure, Couette shear.
 HitTraction in_gap(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const CutFace& face,
                    int hit, int other)
 {
-  const double d = grid.distance(face.axis, face.cell[face.axis]);
+  const double d = distance_across(grid, face.axis, face.cell);
   const double width = std::max(std::abs(links.crossings()[other].theta - links.crossings()[hit].theta), theta_min) * d;
   const StageTime now{1.0, SheetVelocity::Current};
   return {
@@ -75,12 +82,12 @@ void for_each_hit_side(const grid::Grid& grid, const CutLinks& links, const Load
   for (std::size_t n = 0; n < links.cells().size(); ++n)
     for (int axis = 0; axis < 3; ++axis) {
       const CutCell& cut = links.cells()[n];
-      const double area = grid.area(axis, cut.cell[0], cut.cell[1], cut.cell[2]);
       for (int side = 0; side < 2; ++side) {
         const int f = cut.face[2 * axis + side];
         if (f == open_link)
           continue;
         const CutFace& face = links.faces()[f];
+        const double area = grid.area(axis, face.cell[0], face.cell[1], face.cell[2]);
         visit(side == 1 ? face.first : face.last, 1 - side, one_sided(grid, links, fields, {cut, n, axis, side}), area);
         if (side == 1)
           continue;
@@ -115,6 +122,25 @@ struct SideSums {
 };
 using TriangleSums = std::array<SideSums, 2>;
 
+/// The sheet's area that a hit stands for, over that of its face: hits along one axis d sample |n_d| dS; weighted by
+/// |n_d| again, the three directions together count the area once.  On curvilinear grids a link t with face S pierces
+/// the area |S.t|/|n.t|, and its weight is (n.t)^2/t^2 over the sum of the three links'.
+double area_share(const grid::Grid& grid, const Crossing& hit, const Vec3& normal)
+{
+  if (grid.kind() != grid::Kind::Curvilinear)
+    return std::abs(normal[hit.axis]);
+  double sum = 0.0;
+  double share = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 link = grid.centre(hit.cell) - grid.centre(stepped(hit.cell, axis, -1));
+    const double part = std::abs(normal.dot(link)) / link.norm();
+    sum += part * part;
+    if (axis == hit.axis)
+      share = part * std::abs(face_normal(grid, axis, hit.cell).dot(link)) / link.norm();
+  }
+  return share / sum;
+}
+
 /// Shares what lies around each vertex with the triangles that no hit sampled.
 void fill_from_neighbours(std::span<const std::array<int, 3>> triangles, std::size_t vertices,
                           std::vector<TriangleSums>& sums)
@@ -145,7 +171,7 @@ SheetLoads sheet_loads(const grid::Grid& grid, const CutLinks& links, const Load
   for_each_hit_side(grid, links, fields, [&](int q, int link_side, const HitTraction& t, double area) {
     const Crossing& hit = links.crossings()[q];
     Vec3 force = area * t.viscous;
-    force[hit.axis] += link_side == 0 ? area * t.pressure : -area * t.pressure;
+    force += (link_side == 0 ? area * t.pressure : -area * t.pressure) * face_normal(grid, hit.axis, hit.cell);
     std::vector<Vec3>& side = on_plus_side(hit, link_side) ? loads.plus : loads.minus;
     const auto& corner = links.triangle(hit);
     for (int n = 0; n < 3; ++n)
@@ -164,8 +190,7 @@ std::vector<SideTraction> side_tractions(const grid::Grid& grid, const CutLinks&
   for_each_hit_side(grid, links, fields, [&](int q, int link_side, const HitTraction& t, double area) {
     const Crossing& hit = links.crossings()[q];
     const int side = on_plus_side(hit, link_side) ? 1 : 0;
-    // A_d samples |n_d| dS; weighted by |n_d| again, the three directions together count the area once.
-    const double weight = area * std::abs(links.normal(q)[hit.axis]);
+    const double weight = area * area_share(grid, hit, links.normal(q));
     SideSums& sum = sums[hit.triangle][side];
     sum.area += weight;
     sum.pressure += weight * t.pressure;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "immersed/cross_terms.hpp"
 #include "immersed/cut_links.hpp"
 
 namespace luff::immersed {
@@ -29,20 +30,22 @@ struct LoadFields {
   View3<const double> u;
   std::span<const Vec3> u_star;  ///< of links.cells(): the velocity that the implicit wall terms have seen
   double density = 1.0;
-  double viscosity = 0.0;  ///< kinematic
+  double viscosity = 0.0;             ///< kinematic
+  const CrossTerms* cross = nullptr;  ///< of u, on curvilinear grids
 };
 
 /// Force on every vertex.  Each cut link in direction d samples the projected area n_d dS = A_d; its two sides give
 ///
-///   f = rho A_d { -(p_R - p_L) e_d + tau_R + tau_L },
+///   f = rho { -(p_R - p_L) S_d + A_d (tau_R + tau_L) },   S_d = A_d e_d on Cartesian grids,
 ///   tau = h/H nu (u* - u_b)/h_k - (h/H - 1) nu (u_W - u)/h_W,
 ///
 /// what the cell's momentum stencil takes from the fluid: h is the cell's width, H = (h_k + h_W)/2 the stencil's, h_k
 /// the distance of the sheet as there (theta clipped), W the neighbour behind.  Where the shear is the same on both
 /// sides of the cell, tau = nu (u* - u_b)/h_k; where the cell slows down or speeds up, the part of its momentum that
-/// the narrower stencil leaves out is not lost (docs/numerics/immersed.md). p_L, p_R extrapolated linearly to the sheet
-/// from the cells of the same side. The hit's force goes to the triangle's vertices with its barycentric weights: force
-/// and moment are conserved. Collective; the same numbers on every rank.
+/// the narrower stencil leaves out is not lost (docs/numerics/immersed.md).  On curvilinear grids lengths and areas are
+/// those of the gradient flux (cell_metric.hpp), and the cross flux through the face belongs to tau.  p_L, p_R
+/// extrapolated linearly to the sheet from the cells of the same side. The hit's force goes to the triangle's vertices
+/// with its barycentric weights: force and moment are conserved. Collective; the same numbers on every rank.
 [[nodiscard]] SheetLoads sheet_loads(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields,
                                      std::size_t vertices);
 

@@ -35,7 +35,7 @@ struct Slab {
   double viscosity = 0.01;
 };
 
-inline std::unique_ptr<TestFlow> make_flow(const Slab& slab, MPI_Comm comm = MPI_COMM_WORLD)
+inline std::unique_ptr<TestFlow> make_flow(const Slab& slab, MPI_Comm comm, const fluid::FlowOptions& options)
 {
   using fluid::SideBoundary;
   using fluid::SideKind;
@@ -47,9 +47,14 @@ inline std::unique_ptr<TestFlow> make_flow(const Slab& slab, MPI_Comm comm = MPI
                                  {symmetry, symmetry}}};
   auto flow = std::make_unique<TestFlow>(std::array{grid::face_coordinates(slab.x, "x"),
                                                     grid::face_coordinates(slab.y, "y"), std::vector{0.0, slab.depth}},
-                                         sides, fluid::FlowOptions{.viscosity = slab.viscosity}, comm);
+                                         sides, options, comm);
   flow->solver.start(stream, 0.0);
   return flow;
+}
+
+inline std::unique_ptr<TestFlow> make_flow(const Slab& slab, MPI_Comm comm = MPI_COMM_WORLD)
+{
+  return make_flow(slab, comm, {.viscosity = slab.viscosity});
 }
 
 /// Drag and lift coefficients F/(1/2 rho U^2 L depth), U = L = 1, of a force on the plate.

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "immersed/cut_axis.hpp"
+
+#include <algorithm>
+
+#include "immersed/cell_metric.hpp"
+#include "parallel/vector_field.hpp"
+
+namespace luff::immersed {
+
+CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis)
+{
+  CutAxis result;
+  for (int side = 0; side < 2; ++side) {
+    result.distance[side] = distance_across(grid, axis, stepped(cut.cell, axis, side));
+    result.length[side] = result.distance[side];
+    const int f = cut.face[2 * axis + side];
+    if (f == open_link)
+      continue;
+    const CutFace& face = links.faces()[f];
+    result.hit[side] = side == 1 ? face.first : face.last;
+    const double theta = links.crossings()[result.hit[side]].theta;
+    result.theta[side] = side == 1 ? theta : 1.0 - theta;
+    result.length[side] *= std::max(result.theta[side], theta_min);
+  }
+  result.width = width_across(grid, axis, cut.cell);
+  result.span = result.any_cut() ? 0.5 * (result.length[0] + result.length[1]) : result.width;
+  if (grid.kind() == grid::Kind::Curvilinear)
+    for (int side = 0; side < 2; ++side) {
+      const auto [i, j, k] = stepped(cut.cell, axis, side);
+      result.area_ratio[side] = centre_area_vector(grid, axis, cut.cell).norm() / grid.area(axis, i, j, k);
+    }
+  return result;
+}
+
+std::array<Vec3, 2> velocities_beside(const CutLinks& links, const CutCell& cut, int axis, const CutAxis& along,
+                                      const View3<const double>& u, const StageTime& time)
+{
+  std::array<Vec3, 2> beside;
+  for (int side = 0; side < 2; ++side)
+    beside[side] =
+        along.cut(side) ? links.velocity(along.hit[side], time) : at(u, stepped(cut.cell, axis, side == 0 ? -1 : 1));
+  return beside;
+}
+
+}  // namespace luff::immersed

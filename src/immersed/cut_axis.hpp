@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The two links of a cut cell along one axis, as its stencils see them.
+#pragma once
+
+#include "immersed/cut_links.hpp"
+
+namespace luff::immersed {
+
+/// Side 0 below, side 1 above.
+struct CutAxis {
+  std::array<int, 2> hit{open_link, open_link};  ///< the hit that the cell sees on each link
+  std::array<double, 2> theta{1.0, 1.0};         ///< distance of the sheet over that of the other centre; 1: open
+  std::array<double, 2> distance{};              ///< d of the whole link
+  std::array<double, 2> length{};                ///< h_k, to the neighbour or to the sheet, clipped by theta_min
+  std::array<double, 2> area_ratio{1.0, 1.0};    ///< |S| at the centre over |S| of the face
+  double width = 0.0;                            ///< h of the cell
+  double span = 0.0;                             ///< H_d
+
+  [[nodiscard]] bool cut(int side) const { return hit[side] != open_link; }
+  [[nodiscard]] bool any_cut() const { return cut(0) || cut(1); }
+  /// v_k = nu/(h_k H_d), times the area of the face over that at the centre
+  [[nodiscard]] double exchange(int side, double viscosity) const
+  {
+    return viscosity / (length[side] * span * area_ratio[side]);
+  }
+  /// Difference of a field along the axis per cell, from the values beside it: its own value is left out.
+  template <class Value>
+  [[nodiscard]] Value difference(const Value& low, const Value& high) const
+  {
+    return (high - low) / (length[0] / distance[0] + length[1] / distance[1]);
+  }
+};
+
+[[nodiscard]] CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis);
+
+/// The velocities beside a cut cell along an axis: the neighbour's, or that of the sheet.
+[[nodiscard]] std::array<Vec3, 2> velocities_beside(const CutLinks& links, const CutCell& cut, int axis,
+                                                    const CutAxis& along, const View3<const double>& u,
+                                                    const StageTime& time);
+
+}  // namespace luff::immersed
