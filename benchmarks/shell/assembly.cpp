@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time per triangle of the shell's force and tangent, with the constant and the smoothed membrane strain, and of a time
-// step and its repetition.
-// Usage: benchmark_shell_assembly [DIVISIONS]
-#include <chrono>
+// CPU time per triangle of the shell's force and tangent, with the constant and the smoothed membrane strain, and of a
+// time step and its repetition. Usage: benchmark_shell_assembly [DIVISIONS]
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 
 #include "shell/dynamics.hpp"
 #include "support/shells.hpp"
@@ -13,14 +12,14 @@ namespace {
 
 using namespace luff;
 
-/// Mean seconds of `repetitions` calls.
+/// Mean CPU seconds of `repetitions` calls.
 template <class Work>
 double seconds(int repetitions, Work work)
 {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   for (int i = 0; i < repetitions; ++i)
     work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / repetitions;
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / repetitions;
 }
 
 void time_assembly(const shell::Shell& flag)
