@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program: reads the command line and calls a command.
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <filesystem>
 #include <iostream>
 #include <thread>
@@ -18,6 +16,7 @@
 
 #include "config/case.hpp"
 #include "core/error.hpp"
+#include "parallel/agreement.hpp"
 #include "simulation/commands.hpp"
 
 namespace {
@@ -72,22 +71,6 @@ int plot(const std::filesystem::path& run)
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
-/// Whether every rank gets here within seconds.  An error that all ranks met ends each of them by itself; one that some
-/// met alone, such as a disk that refuses to be written, must not leave the others waiting.
-bool all_ranks_arrive()
-{
-  constexpr std::chrono::seconds patience{3};
-  MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Ibarrier(MPI_COMM_WORLD, &request);
-  const auto deadline = std::chrono::steady_clock::now() + patience;
-  int arrived = 0;
-  while (arrived == 0 && std::chrono::steady_clock::now() < deadline) {
-    MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return arrived != 0;
-}
-
 /// Tells what went wrong, once, and ends the other ranks if they don't know.
 int fail(const char* what, int status)
 {
@@ -96,7 +79,7 @@ int fail(const char* what, int status)
   const auto say = [what] { std::cerr << "luff: " << what << std::endl; };
   if (rank == 0)
     say();
-  if (!all_ranks_arrive()) {
+  if (!luff::all_ranks_arrive(MPI_COMM_WORLD)) {
     if (rank != 0)
       say();
     MPI_Abort(MPI_COMM_WORLD, status);
@@ -131,6 +114,7 @@ int main(int argc, char** argv)
   app.require_subcommand(1);
   std::string file;
   std::string out;
+  std::string restart;
   luff::config::Overrides overrides;
   int threads = 0;
   const auto takes_case = [&](CLI::App* command) {
@@ -142,6 +126,7 @@ int main(int argc, char** argv)
   };
   CLI::App* run = takes_case(app.add_subcommand("run", "Run a case"));
   run->add_option("--out", out, "Folder to write to (default: runs/<case>/<nnn>)");
+  run->add_option("--restart", restart, "Go on from the last checkpoint of a run's folder, or from a checkpoint file");
   run->add_option("--threads", threads, "Threads per rank")->check(CLI::PositiveNumber);
   CLI::App* check = takes_case(app.add_subcommand("check", "Validate a case; print groups, size and cost"));
   CLI::App* mesh = takes_case(app.add_subcommand("mesh", "Write grid and surfaces without running"));
@@ -158,12 +143,16 @@ int main(int argc, char** argv)
     const luff::simulation::Threads available = choose_threads(threads);
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow any more is an error like a full disk
     status = guarded([&] {
       using namespace luff::simulation;
       if (run->parsed())
-        run_case(
-            MPI_COMM_WORLD, file, overrides,
-            {.out = out, .threads = available, .interrupted = [] { return interrupts > 0; }, .make_pictures = plot});
+        run_case(MPI_COMM_WORLD, file, overrides,
+                 {.out = out,
+                  .restart = restart,
+                  .threads = available,
+                  .interrupted = [] { return interrupts > 0; },
+                  .make_pictures = plot});
       else if (check->parsed())
         check_case(MPI_COMM_WORLD, file, overrides);
       else if (mesh->parsed())

@@ -102,6 +102,8 @@ void state_case_rules(Schema& s, const Case& options)
          "structure.solver", "must be \"direct\" for modes, on paths with unstable equilibria, and with damping");
   s.rule(flows || options.contact || options.bodies.empty(), "body", "must be left out without a [fluid] or [contact]");
   s.rule(flows || !options.output.fields, "output.fields", "must be left out without a [fluid]");
+  s.rule(options.structure.analysis == Analysis::Dynamic || !options.output.checkpoint, "output.checkpoint",
+         "must be left out unless `structure.analysis = \"dynamic\"`");
   state_names_rule(s, options);
   state_periodic_rule(s, options);
   state_material_rule(s, options);

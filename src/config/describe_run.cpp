@@ -161,9 +161,11 @@ void describe(Schema& s, OutputOptions& output)
   s.table("shells", output.shells,
           {.doc = "Shells and bodies, for ParaView: displacement, velocity, traction and shear on each side. Absent: "
                   "not written."});
+  s.table("checkpoint", output.checkpoint,
+          {.doc = "Everything that the run can go on from, with `luff run CASE --restart RUN`; the last two are kept. "
+                  "Absent: only when a run is stopped or fails. Motion in time only."});
   s.key("plots", output.plots, {.doc = "Make the pictures of `luff plot` when the run ends."});
   s.list("probe", output.probes, {.doc = "A point whose history is written in every step."});
-  s.later({"checkpoint"});
 }
 
 void describe(Schema& s, FieldOutputOptions& fields)
@@ -175,6 +177,12 @@ void describe(Schema& s, FieldOutputOptions& fields)
 void describe(Schema& s, ShellOutputOptions& shells)
 {
   s.key("every", shells.every, {.doc = "Time between two files.", .unit = "s", .range = positive, .required = true});
+}
+
+void describe(Schema& s, CheckpointOutputOptions& checkpoint)
+{
+  s.key("every", checkpoint.every,
+        {.doc = "Time between two checkpoints.", .unit = "s", .range = positive, .required = true});
 }
 
 void describe(Schema& s, ProbeOptions& probe)

@@ -434,6 +434,12 @@ struct ShellOutputOptions {
   bool operator==(const ShellOutputOptions&) const = default;
 };
 
+struct CheckpointOutputOptions {
+  double every = 0.0;
+
+  bool operator==(const CheckpointOutputOptions&) const = default;
+};
+
 /// [[output.probe]]: the vertex of `shell` nearest to `point` in the reference configuration, or a point in the flow.
 struct ProbeOptions {
   std::string name;
@@ -445,9 +451,10 @@ struct ProbeOptions {
 
 /// [output]
 struct OutputOptions {
-  std::optional<FieldOutputOptions> fields;  ///< none: not written
-  std::optional<ShellOutputOptions> shells;  ///< none: not written
-  bool plots = false;                        ///< make the pictures of `luff plot` when the run ends
+  std::optional<FieldOutputOptions> fields;           ///< none: not written
+  std::optional<ShellOutputOptions> shells;           ///< none: not written
+  std::optional<CheckpointOutputOptions> checkpoint;  ///< none: only when the run is stopped or fails
+  bool plots = false;                                 ///< make the pictures of `luff plot` when the run ends
   std::vector<ProbeOptions> probes;
 
   bool operator==(const OutputOptions&) const = default;

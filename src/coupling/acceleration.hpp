@@ -2,11 +2,22 @@
 // How the next guess of a fixed point d = S(F(d)) follows from the last guess and its image.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <Eigen/Core>
 
 namespace luff::coupling {
+
+/// What an acceleration remembers from one step to the next, as plain numbers; what a method does not know is empty.
+struct History {
+  double factor = 0;                  ///< Aitken's
+  std::vector<std::int64_t> columns;  ///< differences of each past step, newest first
+  std::vector<double> lengths;        ///< of all of them, one after the other; see quasi_newton.hpp
+  std::vector<double> residuals;      ///< each as long as the interface vector
+  std::vector<double> images;
+};
 
 /// One interface vector at a time: it never learns what flows or bends on either side.
 ///
@@ -19,6 +30,10 @@ class Acceleration {
   /// The next guess; the same units as d.
   virtual Eigen::VectorXd next(const Eigen::VectorXd& d, const Eigen::VectorXd& d_tilde) = 0;
   virtual void end_step(bool converged) = 0;
+  /// Between two steps.
+  [[nodiscard]] virtual History history() const { return {}; }
+  /// Go on from the history of the same method; of another one nothing is taken over.
+  virtual void restore(const History& /*history*/) {}
 };
 
 enum class AccelerationMethod { Constant, Aitken, QuasiNewton };

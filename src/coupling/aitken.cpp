@@ -42,6 +42,19 @@ void Aitken::end_step(bool converged)
     factor_ = initial_factor_;
 }
 
+History Aitken::history() const
+{
+  History history;
+  history.factor = factor_;
+  return history;
+}
+
+void Aitken::restore(const History& history)
+{
+  if (history.factor != 0)
+    factor_ = history.factor;
+}
+
 double Aitken::secant_factor(const Eigen::VectorXd& residual) const
 {
   const Eigen::VectorXd change = residual - last_residual_;

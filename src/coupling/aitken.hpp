@@ -14,6 +14,8 @@ class Aitken : public Acceleration {
   void begin_step() override;
   Eigen::VectorXd next(const Eigen::VectorXd& d, const Eigen::VectorXd& d_tilde) override;
   void end_step(bool converged) override;
+  [[nodiscard]] History history() const override;
+  void restore(const History& history) override;
 
   double factor() const { return factor_; }
 

@@ -109,6 +109,34 @@ void QuasiNewton::end_step(bool converged)
     past_.pop_back();
 }
 
+History QuasiNewton::history() const
+{
+  History history;
+  for (const auto& step : past_) {
+    history.columns.push_back(static_cast<std::int64_t>(step.size()));
+    for (const Difference& change : step) {
+      history.lengths.push_back(change.length);
+      history.residuals.insert(history.residuals.end(), change.residual.begin(), change.residual.end());
+      history.images.insert(history.images.end(), change.image.begin(), change.image.end());
+    }
+  }
+  return history;
+}
+
+void QuasiNewton::restore(const History& history)
+{
+  past_.clear();
+  const auto n =
+      history.lengths.empty() ? 0 : static_cast<Eigen::Index>(history.residuals.size() / history.lengths.size());
+  std::size_t at = 0;
+  for (const std::int64_t columns : history.columns) {
+    std::deque<Difference>& step = past_.emplace_back();
+    for (std::int64_t c = 0; c < columns; ++c, ++at)
+      step.push_back({history.lengths[at], Eigen::Map<const Eigen::VectorXd>(history.residuals.data() + n * at, n),
+                      Eigen::Map<const Eigen::VectorXd>(history.images.data() + n * at, n)});
+  }
+}
+
 void QuasiNewton::learn(const Iterate& now)
 {
   watch_growth(now.residual.norm());

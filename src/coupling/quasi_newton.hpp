@@ -36,6 +36,8 @@ class QuasiNewton : public Acceleration {
   void begin_step() override;
   Eigen::VectorXd next(const Eigen::VectorXd& d, const Eigen::VectorXd& d_tilde) override;
   void end_step(bool converged) override;
+  [[nodiscard]] History history() const override;
+  void restore(const History& history) override;
 
   /// Columns that the last update used, after the filter.
   int columns_used() const { return columns_used_; }

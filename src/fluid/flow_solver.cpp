@@ -137,6 +137,16 @@ void FlowSolver::accept()
   ++state_.steps;
 }
 
+void FlowSolver::restore(FlowState state, const immersed::FluxOffsets& offsets, double t)
+{
+  state_ = std::move(state);
+  links_.restore(offsets);
+  boundary_.evaluate_at(t);
+  u_ = state_.u;
+  U_ = state_.U;
+  p_ = state_.p;
+}
+
 void FlowSolver::find_cut_links(const immersed::SheetMotion& predicted, double speed)
 {
   {

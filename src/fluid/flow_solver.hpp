@@ -82,6 +82,10 @@ class FlowSolver {
   /// Commits the trial flow as the state at t^{n+1}.
   void accept();
 
+  /// Go on from an accepted state at time t and the offsets of all ranks' cut faces: with state() and
+  /// links().accepted_offsets() of the same grid, boundaries and options the same bits as going on. Collective.
+  void restore(FlowState state, const immersed::FluxOffsets& offsets, double t);
+
   [[nodiscard]] const FlowState& state() const { return state_; }
   [[nodiscard]] const immersed::CutLinks& links() const { return links_; }
   [[nodiscard]] const grid::Grid& grid() const { return grid_; }

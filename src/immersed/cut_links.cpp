@@ -176,6 +176,39 @@ std::int64_t CutLinks::key(int axis, const Index3& cell) const
   return ((std::int64_t{axis} * (n[2] + 1) + cell[2]) * (n[1] + 1) + cell[1]) * (n[0] + 1) + cell[0];
 }
 
+/// Whether a face is one of this rank's: low faces are their cell's, the last ones of the domain those of the cell
+/// below.
+bool CutLinks::keeps(std::int64_t key) const
+{
+  const Index3& n = grid_.cells();
+  Index3 cell{};
+  for (int a = 0; a < 3; key /= n[a] + 1, ++a)
+    cell[a] = static_cast<int>(key % (n[a] + 1));
+  const auto axis = static_cast<int>(key);
+  if (cell[axis] == n[axis])
+    --cell[axis];
+  return grid_.owned().contains(cell);
+}
+
+FluxOffsets CutLinks::accepted_offsets() const
+{
+  FluxOffsets mine;
+  for (const auto& [face, offset] : accepted_offsets_)
+    if (keeps(face)) {
+      mine.face.push_back(face);
+      mine.offset.push_back(offset);
+    }
+  return mine;
+}
+
+void CutLinks::restore(const FluxOffsets& of_all_ranks)
+{
+  accepted_offsets_.clear();
+  for (std::size_t n = 0; n < of_all_ranks.face.size(); ++n)
+    accepted_offsets_.emplace_back(of_all_ranks.face[n], of_all_ranks.offset[n]);
+  std::sort(accepted_offsets_.begin(), accepted_offsets_.end());
+}
+
 const std::pair<std::int64_t, double>* CutLinks::old_offset(std::int64_t key) const
 {
   const auto at = std::lower_bound(accepted_offsets_.begin(), accepted_offsets_.end(), key,

@@ -60,6 +60,12 @@ struct CutCell {
 };
 inline constexpr int open_link = -1;
 
+/// Offsets of the fluxes of cut faces in the accepted state, by the number of the face in the whole grid.
+struct FluxOffsets {
+  std::vector<std::int64_t> face;  ///< ascending
+  std::vector<double> offset;      ///< eps [L/T]
+};
+
 /// The cut links of one rank.  The geometry is frozen once per step; coupling iterations change the velocity only.
 class CutLinks {
  public:
@@ -78,6 +84,10 @@ class CutLinks {
 
   /// Commits the flux offsets, decayed over the step.
   void accept();
+  /// The accepted offsets of the faces of this rank's cells, each face on one rank only.
+  [[nodiscard]] FluxOffsets accepted_offsets() const;
+  /// Go on from the accepted offsets of all ranks, in any order.
+  void restore(const FluxOffsets& of_all_ranks);
 
   [[nodiscard]] const std::vector<Crossing>& crossings() const { return crossings_; }
   [[nodiscard]] const std::vector<CutFace>& faces() const { return faces_; }
@@ -112,6 +122,7 @@ class CutLinks {
   void start_offsets(double speed, const View3<const double>& U_old);
   [[nodiscard]] double face_velocity(const CutFace& face, const StageTime& time) const;
   [[nodiscard]] std::int64_t key(int axis, const Index3& cell) const;
+  [[nodiscard]] bool keeps(std::int64_t key) const;
   [[nodiscard]] const std::pair<std::int64_t, double>* old_offset(std::int64_t key) const;
   [[nodiscard]] bool was_cut(int axis, const Index3& cell) const { return old_offset(key(axis, cell)) != nullptr; }
 

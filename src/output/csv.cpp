@@ -3,11 +3,14 @@
 #include "output/csv.hpp"
 
 #include <cmath>
+#include <cstdlib>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "output/integrity.hpp"
 
 namespace luff::output {
 
@@ -34,13 +37,71 @@ std::string joined(const Range& range, Text text)
 
 }  // namespace
 
-CsvWriter::CsvWriter(const RunFolder& folder, const std::string& file_name, std::vector<Column> columns)
+CsvWriter::CsvWriter(const RunFolder& folder, const std::string& file_name, std::vector<Column> columns,
+                     const EarlierOutput* earlier)
     : path_(folder.file(file_name)), columns_(std::move(columns))
 {
   if (!folder.writes())
     return;
+  const TableMark* mark = earlier != nullptr ? earlier->table(file_name) : nullptr;
+  whole_ = mark == nullptr || take_over(*earlier, *mark);
+  if (mark != nullptr && whole_) {
+    file_.open(path_, std::ios::app);
+    return;
+  }
   file_.open(path_);
   write_line(joined(columns_, head));
+}
+
+/// Makes the first rows of an earlier table those of this one.
+bool CsvWriter::take_over(const EarlierOutput& earlier, const TableMark& mark) const
+{
+  const std::filesystem::path from = earlier.folder / mark.file;
+  std::error_code error;
+  if (const auto bytes = std::filesystem::file_size(from, error);
+      error || bytes < static_cast<std::uintmax_t>(mark.bytes))
+    return false;
+  std::string first;
+  std::getline(std::ifstream(from), first);
+  if (first != joined(columns_, head))
+    return false;
+  const bool in_place = std::filesystem::equivalent(from, path_, error);
+  error.clear();
+  if (!in_place)
+    std::filesystem::copy_file(from, path_, std::filesystem::copy_options::overwrite_existing, error);
+  if (!error)
+    std::filesystem::resize_file(path_, mark.bytes, error);
+  return !error;
+}
+
+TableMark CsvWriter::mark() const
+{
+  std::error_code ignored;
+  return {path_.filename().string(),
+          file_.is_open() ? static_cast<std::int64_t>(std::filesystem::file_size(path_, ignored)) : 0};
+}
+
+bool CsvWriter::flush() const
+{
+  return !file_.is_open() || flush_to_disk(path_);
+}
+
+std::vector<std::vector<double>> CsvWriter::rows() const
+{
+  std::vector<std::vector<double>> rows;
+  if (!file_.is_open())
+    return rows;
+  std::ifstream in(path_);
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    std::vector<double>& row = rows.emplace_back();
+    std::istringstream cells(line + ",");
+    for (std::string cell; std::getline(cells, cell, ',');)
+      row.push_back(cell.empty() ? std::nan("") : std::strtod(cell.c_str(), nullptr));
+    row.resize(columns_.size(), std::nan(""));
+  }
+  return rows;
 }
 
 void CsvWriter::row(std::span<const double> values)

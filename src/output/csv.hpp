@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "output/earlier_output.hpp"
 #include "output/run_folder.hpp"
 
 namespace luff::output {
@@ -21,18 +22,32 @@ struct Column {
 /// Comma-separated values. Each row is on disk when row() returns; numbers have all their digits.
 class CsvWriter {
  public:
-  /// Writes the head. Throws RunError if the file cannot be written.
-  CsvWriter(const RunFolder& folder, const std::string& file_name, std::vector<Column> columns);
+  /// Writes the head, or continues the table of an earlier run from where its mark stands: rows after that are dropped.
+  /// Throws RunError if the file cannot be written.
+  CsvWriter(const RunFolder& folder, const std::string& file_name, std::vector<Column> columns,
+            const EarlierOutput* earlier = nullptr);
 
   /// One value per column; NaN leaves the place empty. Throws RunError if the disk refuses.
   void row(std::span<const double> values);
 
+  /// How far the table has come; meaningful on the rank that writes.
+  [[nodiscard]] TableMark mark() const;
+  /// Makes the rows so far last on disk, beyond a failure of power; false if it refuses.
+  [[nodiscard]] bool flush() const;
+  /// False if an earlier run's table had a mark that could not be continued from: it was lost, cut, or had other
+  /// columns.
+  [[nodiscard]] bool whole() const { return whole_; }
+  /// The rows so far, on the rank that writes; an empty place is NaN.
+  [[nodiscard]] std::vector<std::vector<double>> rows() const;
+
  private:
+  [[nodiscard]] bool take_over(const EarlierOutput& earlier, const TableMark& mark) const;
   void write_line(const std::string& line);
 
   std::filesystem::path path_;
   std::vector<Column> columns_;
   std::ofstream file_;  // open on the rank that writes
+  bool whole_ = true;
 };
 
 /// Three columns name_x, name_y, name_z of one unit.

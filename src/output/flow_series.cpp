@@ -12,6 +12,7 @@
 #include "output/atomic_file.hpp"
 #include "output/series.hpp"
 #include "output/vtk_data.hpp"
+#include "parallel/agreement.hpp"
 
 namespace luff::output {
 
@@ -30,9 +31,10 @@ Extent whole_extent(const FlowSnapshot& snapshot)
   return {0, last(0), 0, last(1), 0, last(2)};
 }
 
-vtkSmartPointer<vtkDoubleArray> coordinates(const std::vector<double>& nodes, int first, int last)
+vtkSmartPointer<vtkDoubleArray> coordinates(const char* name, const std::vector<double>& nodes, int first, int last)
 {
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName(name);  // else VTK makes one of its address, another one in every run
   for (int i = first; i <= last; ++i)
     array->InsertNextValue(nodes[i]);
   return array;
@@ -43,9 +45,9 @@ vtkSmartPointer<vtkRectilinearGrid> vtk_grid(const FlowSnapshot& snapshot, doubl
   const Extent e = extent_of(snapshot.piece);
   auto grid = vtkSmartPointer<vtkRectilinearGrid>::New();
   grid->SetExtent(e[0], e[1], e[2], e[3], e[4], e[5]);
-  grid->SetXCoordinates(coordinates(snapshot.nodes[0], e[0], e[1]));
-  grid->SetYCoordinates(coordinates(snapshot.nodes[1], e[2], e[3]));
-  grid->SetZCoordinates(coordinates(snapshot.nodes[2], e[4], e[5]));
+  grid->SetXCoordinates(coordinates("x", snapshot.nodes[0], e[0], e[1]));
+  grid->SetYCoordinates(coordinates("y", snapshot.nodes[1], e[2], e[3]));
+  grid->SetZCoordinates(coordinates("z", snapshot.nodes[2], e[4], e[5]));
   add_fields(*grid->GetCellData(), snapshot.fields, snapshot.piece.volume());
   set_time(*grid, time);
   return grid;
@@ -97,13 +99,6 @@ std::string list_of_pieces(const std::string& stem, const FlowSnapshot& snapshot
   return text + "  </PRectilinearGrid>\n</VTKFile>\n";
 }
 
-bool everywhere(MPI_Comm comm, bool good)
-{
-  int all = good ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_MIN, comm);
-  return all == 1;
-}
-
 int rank_in(MPI_Comm comm)
 {
   int rank = 0;
@@ -113,17 +108,15 @@ int rank_in(MPI_Comm comm)
 
 }  // namespace
 
-FlowSeries::FlowSeries(const RunFolder& folder, std::string name)
-    : folder_(folder), name_(std::move(name)), index_(folder.file(name_ + ".pvd"))
+FlowSeries::FlowSeries(const RunFolder& folder, std::string name, const EarlierOutput* earlier)
+    : folder_(folder), name_(std::move(name)), index_(folder, name_, earlier)
 {
 }
 
 void FlowSeries::write(double time, const FlowSnapshot& snapshot)
 {
-  const std::string file = write_pieces(fmt::format("{}_{:06}", name_, count_), time, snapshot);
-  if (folder_.writes())
-    index_.add(time, fmt::format("{}/{}", name_, file));
-  ++count_;
+  const std::string file = write_pieces(fmt::format("{}_{:06}", name_, index_.count()), time, snapshot);
+  index_.add(time, fmt::format("{}/{}", name_, file));
 }
 
 /// Returns the name of the file that shows the whole grid.
@@ -139,7 +132,7 @@ std::string FlowSeries::write_pieces(const std::string& stem, double time, const
 
   const bool alone = extents.size() == 1;
   std::string piece = alone ? stem + ".vtr" : piece_name(stem, rank_in(comm));
-  if (!everywhere(comm, write_piece(snapshot, time, folder / piece)))
+  if (!on_all_ranks(comm, write_piece(snapshot, time, folder / piece)))
     fail_run("{}: cannot be written at t = {}; is the disk full, or the folder gone?", (folder / stem).string(), time);
   if (alone)
     return piece;

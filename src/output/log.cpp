@@ -25,7 +25,7 @@ spdlog::sink_ptr console_sink()
 spdlog::sink_ptr file_sink(const std::filesystem::path& file)
 {
   try {
-    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_st>(file.string(), /*truncate=*/true);
+    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_st>(file.string(), /*truncate=*/false);
     sink->set_pattern("%Y-%m-%d %H:%M:%S.%e  %-7l  %v");
     return sink;
   } catch (const spdlog::spdlog_ex& error) {

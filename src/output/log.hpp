@@ -11,7 +11,7 @@
 namespace luff::output {
 
 /// Speaks on standard output and in log.txt, line by line; silent on all ranks but the first.
-/// Throws RunError if log.txt cannot be written.
+/// Adds to a log.txt that is there already.  Throws RunError if log.txt cannot be written.
 std::shared_ptr<spdlog::logger> make_log(const RunFolder& folder);
 
 }  // namespace luff::output

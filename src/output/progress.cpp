@@ -68,17 +68,22 @@ std::vector<Part> parts_of_step(const StepProgress& p, double t_end)
 
 }  // namespace
 
-ProgressOptions progress_on_standard_output(double t_end, double cells)
+ProgressOptions progress_on_standard_output(double t_start, double t_end, double cells)
 {
   if (standard_output_is_terminal())
-    return {.t_end = t_end, .cells = cells, .style = ProgressStyle::Live, .every = 0.2, .width = terminal_width() - 1};
-  return {.t_end = t_end, .cells = cells, .style = ProgressStyle::Plain, .every = 10};
+    return {.t_start = t_start,
+            .t_end = t_end,
+            .cells = cells,
+            .style = ProgressStyle::Live,
+            .every = 0.2,
+            .width = terminal_width() - 1};
+  return {.t_start = t_start, .t_end = t_end, .cells = cells, .style = ProgressStyle::Plain, .every = 10};
 }
 
 Progress::Progress(std::ostream& out, const ProgressOptions& options) : Progress(out, options, steady_seconds) {}
 
 Progress::Progress(std::ostream& out, const ProgressOptions& options, Clock clock)
-    : out_(out), options_(options), clock_(std::move(clock)), last_clock_(clock_())
+    : out_(out), options_(options), clock_(std::move(clock)), last_clock_(clock_()), last_t_(options.t_start)
 {
 }
 

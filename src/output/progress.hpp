@@ -24,8 +24,9 @@ struct StepProgress {
 enum class ProgressStyle { Live, Plain };
 
 struct ProgressOptions {
-  double t_end = 0;  ///< [T]
-  double cells = 0;  ///< of the flow; 0 for a structure alone
+  double t_start = 0;  ///< [T]
+  double t_end = 0;    ///< [T]
+  double cells = 0;    ///< of the flow; 0 for a structure alone
   ProgressStyle style = ProgressStyle::Plain;
   double every = 10;  ///< seconds between lines
   int width = 0;      ///< columns a live line may take; 0: any number
@@ -33,7 +34,7 @@ struct ProgressOptions {
 
 /// The style and width of standard output, a line every fifth of a second on a terminal and every ten seconds
 /// elsewhere.
-ProgressOptions progress_on_standard_output(double t_end, double cells);
+ProgressOptions progress_on_standard_output(double t_start, double t_end, double cells);
 
 /// A word of the line; where the line is too narrow the least important are left out.
 struct ProgressPart {
@@ -66,7 +67,7 @@ class Progress {
   ProgressOptions options_;
   Clock clock_;
   double last_clock_;
-  double last_t_ = 0;
+  double last_t_;
   std::optional<double> seconds_per_step_;
   double time_per_step_ = 0;
   std::optional<double> last_shown_;

@@ -8,7 +8,12 @@
 #include <functional>
 #include <system_error>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include "core/error.hpp"
+#include "parallel/broadcast.hpp"
 
 namespace luff::output {
 
@@ -23,15 +28,6 @@ int rank_of(MPI_Comm comm)
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   return rank;
-}
-
-std::string broadcast(MPI_Comm comm, std::string text)
-{
-  auto length = static_cast<int>(text.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, comm);
-  text.resize(length);
-  MPI_Bcast(text.data(), length, MPI_CHAR, 0, comm);
-  return text;
 }
 
 /// Runs `make` on the first rank; its result, or its InputError, reaches every rank.
@@ -122,7 +118,34 @@ fs::path make_at(const fs::path& folder)
 
 }  // namespace
 
-RunFolder::RunFolder(MPI_Comm comm, fs::path path) : comm_(comm), rank_(rank_of(comm)), path_(std::move(path)) {}
+/// A folder that a process has to itself until it ends, however it ends.
+struct RunFolder::Lock {
+  explicit Lock(const fs::path& folder) : number(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {}
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+  ~Lock()
+  {
+    if (number >= 0)
+      close(number);
+  }
+  /// File systems that know no locks grant it.
+  [[nodiscard]] bool taken_by_another() const { return flock(number, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; }
+  int number;
+};
+
+RunFolder::RunFolder(MPI_Comm comm, fs::path path) : comm_(comm), rank_(rank_of(comm)), path_(std::move(path))
+{
+  std::string error;
+  if (rank_ == 0) {
+    lock_ = std::make_shared<Lock>(path_);
+    if (lock_->taken_by_another())
+      error = fmt::format("output folder {}: another run is writing there; wait until it ends, or {}", path_.string(),
+                          remedy);
+  }
+  error = broadcast(comm, error);
+  if (!error.empty())
+    throw InputError(error);
+}
 
 RunFolder RunFolder::numbered(MPI_Comm comm, const fs::path& runs, const std::string& case_name)
 {
@@ -132,6 +155,21 @@ RunFolder RunFolder::numbered(MPI_Comm comm, const fs::path& runs, const std::st
 RunFolder RunFolder::at(MPI_Comm comm, const fs::path& folder)
 {
   return {comm, make_on_first_rank(comm, [&] { return make_at(folder); })};
+}
+
+RunFolder RunFolder::again(MPI_Comm comm, const fs::path& folder)
+{
+  return {comm, make_on_first_rank(comm, [&] {
+            try_to_write(folder);
+            return folder;
+          })};
+}
+
+void RunFolder::forget_stop() const
+{
+  std::error_code ignored;
+  if (writes())
+    fs::remove(file("STOP"), ignored);
 }
 
 bool RunFolder::stop_requested() const

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include <mpi.h>
@@ -22,6 +23,10 @@ class RunFolder {
   /// Throws InputError on every rank if it holds something, is no folder, or cannot be made or written.
   static RunFolder at(MPI_Comm comm, const std::filesystem::path& folder);
 
+  /// The folder of an earlier run, to go on in. Collective.
+  /// Throws InputError on every rank if it cannot be written, or if a run is writing there.
+  static RunFolder again(MPI_Comm comm, const std::filesystem::path& folder);
+
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path file(const std::string& name) const { return path_ / name; }
   MPI_Comm comm() const { return comm_; }
@@ -29,13 +34,17 @@ class RunFolder {
 
   /// True when a file named STOP lies in the folder: the user asks the run to end. Collective.
   bool stop_requested() const;
+  /// Takes an earlier request back.
+  void forget_stop() const;
 
  private:
+  struct Lock;
   RunFolder(MPI_Comm comm, std::filesystem::path path);
 
   MPI_Comm comm_;
   int rank_;
   std::filesystem::path path_;
+  std::shared_ptr<Lock> lock_;  ///< of the rank that writes, for as long as any copy lives
 };
 
 }  // namespace luff::output

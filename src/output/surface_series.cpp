@@ -46,16 +46,21 @@ vtkSmartPointer<vtkPolyData> vtk_surface(const SurfaceSnapshot& snapshot, double
 
 }  // namespace
 
-SurfaceSeries::SurfaceSeries(const RunFolder& folder, std::string name)
-    : folder_(folder), name_(std::move(name)), index_(folder.file(name_ + ".pvd"))
+SurfaceSeries::SurfaceSeries(const RunFolder& folder, std::string name, const EarlierOutput* earlier)
+    : folder_(folder), name_(std::move(name)), index_(folder, name_, earlier)
 {
 }
 
 void SurfaceSeries::write(double time, const SurfaceSnapshot& snapshot)
 {
-  if (!folder_.writes())
-    return;
-  const std::string file = fmt::format("{}/{}_{:06}.vtp", name_, name_, count_);
+  const std::string file = fmt::format("{}/{}_{:06}.vtp", name_, name_, index_.count());
+  if (folder_.writes())
+    write_file(file, time, snapshot);
+  index_.add(time, file);
+}
+
+void SurfaceSeries::write_file(const std::string& file, double time, const SurfaceSnapshot& snapshot) const
+{
   std::error_code ignored;  // what matters is whether the file can be written
   std::filesystem::create_directories(folder_.file(name_), ignored);
   const auto surface = vtk_surface(snapshot, time);
@@ -63,8 +68,6 @@ void SurfaceSeries::write(double time, const SurfaceSnapshot& snapshot)
   if (!write_vtk(*writer, *surface, folder_.file(file)))
     fail_run("{}: cannot be written at t = {}; is the disk full, or the folder gone?", folder_.file(file).string(),
              time);
-  index_.add(time, file);
-  ++count_;
 }
 
 }  // namespace luff::output

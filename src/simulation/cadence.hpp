@@ -18,16 +18,24 @@ class Cadence {
   {
     if (!interval_)
       return false;
-    // The rounding of a time that many steps added up to.
-    const double reached = t / *interval_ + 1e-9;
-    if (reached < next_ && !(last && t != latest_))
+    if (reached(t) < next_ && !(last && t != latest_))
       return false;
-    next_ = std::floor(reached) + 1.0;
+    next_ = std::floor(reached(t)) + 1.0;
     latest_ = t;
     return true;
   }
+  /// Go on from time t, up to which all that was due was done; `latest`: when something was last.
+  void resume(double t, std::optional<double> latest)
+  {
+    if (interval_)
+      next_ = std::floor(reached(t)) + 1.0;
+    latest_ = latest;
+  }
 
  private:
+  /// Number of instants up to t, with the rounding of a time that many steps added up to.
+  [[nodiscard]] double reached(double t) const { return t / *interval_ + 1e-9; }
+
   std::optional<double> interval_;
   std::optional<double> latest_;
   double next_ = 0.0;  ///< number of the next instant

@@ -52,6 +52,13 @@ class Clock {
     steps_ = step.index;
     rejections_ = 0;
   }
+  /// Go on from the end of an accepted step.
+  void resume(double t, int steps)
+  {
+    now_ = t;
+    steps_ = steps;
+    rejections_ = 0;
+  }
   /// The step did not converge: the next one is half as long.
   void reject() { ++rejections_; }
   [[nodiscard]] int rejections() const { return rejections_; }

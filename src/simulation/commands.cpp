@@ -2,13 +2,16 @@
 #include "simulation/commands.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
+#include <optional>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <omp.h>
 
 #include "core/error.hpp"
+#include "output/atomic_file.hpp"
+#include "output/checkpoint_folder.hpp"
 #include "output/log.hpp"
 #include "output/series.hpp"
 #include "simulation/build.hpp"
@@ -29,6 +32,15 @@ std::string case_name(const std::filesystem::path& file)
   return file.stem() == "case" && !folder.empty() ? folder.string() : file.stem().string();
 }
 
+/// The folder that a run goes on in; it is ours before its checkpoints are read.
+std::optional<output::RunFolder> earlier_folder(MPI_Comm comm, const RunOptions& options)
+{
+  if (options.restart.empty() || !options.out.empty() || !std::filesystem::exists(options.restart))
+    return std::nullopt;
+  const std::filesystem::path from = std::filesystem::absolute(options.restart);
+  return output::RunFolder::again(comm, std::filesystem::is_directory(from) ? from : from.parent_path());
+}
+
 output::RunFolder make_folder(MPI_Comm comm, const std::filesystem::path& file, const RunOptions& options)
 {
   return options.out.empty() ? output::RunFolder::numbered(comm, "runs", case_name(file))
@@ -39,8 +51,9 @@ void echo_case(const output::RunFolder& folder, const config::Case& options)
 {
   if (!folder.writes())
     return;
-  std::ofstream out(folder.file("case.toml"));
-  config::write_case(options, out);
+  std::ostringstream text;
+  config::write_case(options, text);
+  output::write_atomically(folder.file("case.toml"), text.str());
 }
 
 /// True on every rank when any was asked to end.
@@ -54,9 +67,10 @@ std::function<bool()> anywhere(MPI_Comm comm, const std::function<bool()>& here)
 }
 
 void march(const output::RunFolder& folder, const std::shared_ptr<spdlog::logger>& log, const config::Case& options,
-           Simulation& simulation, const std::function<bool()>& interrupted)
+           Simulation& simulation, const std::function<bool()>& interrupted,
+           const std::optional<Resumption>& resumption)
 {
-  Recorder recorder(folder, log, options, simulation, interrupted);
+  Recorder recorder(folder, log, options, simulation, interrupted, resumption ? &resumption->record : nullptr);
   try {
     simulation.run([&](const StepRecord& record) { return recorder.record(record); });
   } catch (const InputError& error) {  // of the boundary at a later time, for one
@@ -118,6 +132,22 @@ std::shared_ptr<spdlog::logger> start_log(const output::RunFolder& folder, const
   return log;
 }
 
+void say_resumption(spdlog::logger& log, const Clock& clock, const Resumption& resumption)
+{
+  for (const std::string& reason : resumption.passed_over)
+    log.warn("{}", reason);
+  log.info("goes on from step {}, t = {:.6g}, of {}", clock.steps(), clock.now(), resumption.folder.string());
+  for (const std::string& change : resumption.changed)
+    log.info("changed: {}", change);
+}
+
+/// A run's own folder is cut back to where it goes on from.
+void prepare_folder(const output::RunFolder& folder, const Clock& clock)
+{
+  folder.forget_stop();
+  output::drop_checkpoints_after(folder, clock.steps());
+}
+
 output::FlowSnapshot grid_snapshot(const grid::Grid& grid)
 {
   output::FlowSnapshot snapshot;
@@ -151,6 +181,9 @@ void run_case(MPI_Comm comm, const std::filesystem::path& file, const config::Ov
   const config::Case options = config::load_case(file, overrides);
   set_threads(comm, options, run.threads);
   if (!marches(options)) {
+    if (!run.restart.empty())
+      fail_input("--restart {}: only motion in time goes on from a checkpoint, not structure.analysis of another kind",
+                 run.restart.string());
     const auto structure = build_structure(options);
     const std::vector<LoadedShell> shells = build_still(options);
     const output::RunFolder folder = make_folder(comm, file, run);
@@ -163,10 +196,18 @@ void run_case(MPI_Comm comm, const std::filesystem::path& file, const config::Ov
     picture(folder, *log, options, run);
   } else {
     const auto simulation = build_simulation(comm, options);
-    const output::RunFolder folder = make_folder(comm, file, run);
+    const std::optional<output::RunFolder> earlier = earlier_folder(comm, run);
+    std::optional<Resumption> resumption;
+    if (!run.restart.empty())
+      resumption = resume(comm, {run.restart, file, overrides}, options, *simulation);
+    const output::RunFolder folder = earlier ? *earlier : make_folder(comm, file, run);
+    if (resumption)
+      prepare_folder(folder, simulation->clock());
     const auto log = start_log(folder, options);
     say_groups(*log, options, simulation->structure());
-    march(folder, log, options, *simulation, anywhere(comm, run.interrupted));
+    if (resumption)
+      say_resumption(*log, simulation->clock(), *resumption);
+    march(folder, log, options, *simulation, anywhere(comm, run.interrupted), resumption);
     picture(folder, *log, options, run);
   }
 }

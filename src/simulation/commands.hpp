@@ -18,7 +18,8 @@ struct Threads {
 
 /// What `run` takes from the command line besides the case.
 struct RunOptions {
-  std::filesystem::path out;  ///< empty: runs/<case>/<nnn>
+  std::filesystem::path out;      ///< empty: runs/<case>/<nnn>, or the folder of the run that goes on
+  std::filesystem::path restart;  ///< a run's folder or a checkpoint to go on from; empty: from the start
   Threads threads;
   std::function<bool()> interrupted = [] { return false; };  ///< whether this rank was asked to end
   /// Makes pictures of a run folder; returns 0 when it could.  Called when the case asks for plots.

@@ -8,7 +8,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "output/summary.hpp"
+#include "parallel/agreement.hpp"
 #include "simulation/flow_fields.hpp"
 #include "surface/selection.hpp"
 
@@ -62,7 +64,7 @@ output::NamedField field_of(const std::string& name, const std::vector<Vec3>& va
 }  // namespace
 
 Recorder::Recorder(const output::RunFolder& folder, std::shared_ptr<spdlog::logger> log, const config::Case& options,
-                   Simulation& simulation, std::function<bool()> interrupted)
+                   Simulation& simulation, std::function<bool()> interrupted, const Record* earlier)
     : folder_(folder),
       log_(std::move(log)),
       options_(options),
@@ -70,39 +72,66 @@ Recorder::Recorder(const output::RunFolder& folder, std::shared_ptr<spdlog::logg
       interrupted_(std::move(interrupted)),
       progress_(std::cout,
                 output::progress_on_standard_output(
-                    options.time.end,
+                    simulation.clock().now(), options.time.end,
                     options.fluid ? double(simulation.surroundings().flow()->grid().ranks().domain().volume()) : 0.0)),
       fields_due_(options.output.fields ? std::optional(options.output.fields->every) : std::nullopt),
-      shells_due_(options.output.shells ? std::optional(options.output.shells->every) : std::nullopt)
+      shells_due_(options.output.shells ? std::optional(options.output.shells->every) : std::nullopt),
+      checkpoint_due_(options.output.checkpoint ? std::optional(options.output.checkpoint->every) : std::nullopt)
 {
-  open_tables();
+  const output::EarlierOutput* before = earlier != nullptr ? &earlier->output : nullptr;
+  open_tables(before);
   for (const config::ProbeOptions& probe : options_.output.probes)
-    open_probe(probe);
-  write_snapshots(0.0, options_.time.step, /*last=*/false);
-  started_ = last_step_ended_ = seconds_now();
+    open_probe(probe, before);
+  if (earlier != nullptr)
+    resume(*earlier);
+  else
+    write_snapshots(0.0, options_.time.step, /*last=*/false);
+  (void)checkpoint_due_.due(simulation_.clock().now());
+  started_ = seconds_now() - tally_.seconds;
+  last_step_ended_ = seconds_now();
   simulation_.profile().reset();
   if (auto* flow = simulation_.surroundings().flow())
     flow->profile().reset();
 }
 
-void Recorder::open_tables()
+/// Everything that was due up to now was written by the earlier run.
+void Recorder::resume(const Record& earlier)
 {
-  steps_.emplace(folder_, "steps.csv", step_columns());
+  tally_ = earlier.tally;
+  newton_iterations_ = simulation_.structure().newton_iterations();
+  recorded_steps_ = simulation_.clock().steps();
+  const auto latest = [&](const std::string& name) -> std::optional<double> {
+    const output::SeriesMark* series = earlier.output.of(name);
+    return series != nullptr && !series->instants.empty() ? std::optional(series->instants.back().time) : std::nullopt;
+  };
+  fields_due_.resume(simulation_.clock().now(), latest("fields"));
+  shells_due_.resume(simulation_.clock().now(),
+                     surfaces_.empty() ? std::nullopt : latest(surfaces_.front().mark().name));
+  for (const output::CsvWriter* table : tables())
+    if (!table->whole())
+      log_->warn(
+          "{}: the rows of the earlier run are not there any more, or have other columns; it begins at t = {:.6g}",
+          table->mark().file, simulation_.clock().now());
+}
+
+void Recorder::open_tables(const output::EarlierOutput* earlier)
+{
+  steps_.emplace(folder_, "steps.csv", step_columns(), earlier);
   if (options_.fluid && options_.output.fields)
-    fields_.emplace(folder_);
+    fields_.emplace(folder_, "fields", earlier);
   for (const SheetRange& sheet : simulation_.structure().sheets()) {
-    surfaces_.emplace_back(folder_, (sheet.deforms ? "shell-" : "body-") + sheet.name);
+    surfaces_.emplace_back(folder_, (sheet.deforms ? "shell-" : "body-") + sheet.name, earlier);
     if (!options_.fluid)
       continue;
     std::vector<output::Column> columns{{"t", "time"}};
     for (const char* name : {"force", "force_minus", "force_plus"})
       for (const output::Column& c : output::vector_columns(name, "force"))
         columns.push_back(c);
-    forces_.emplace_back(folder_, "forces-" + sheet.name + ".csv", columns);
+    forces_.emplace_back(folder_, "forces-" + sheet.name + ".csv", columns, earlier);
   }
 }
 
-void Recorder::open_probe(const config::ProbeOptions& options)
+void Recorder::open_probe(const config::ProbeOptions& options, const output::EarlierOutput* earlier)
 {
   Probe probe;
   probe.name = options.name;
@@ -128,23 +157,28 @@ void Recorder::open_probe(const config::ProbeOptions& options)
     add("velocity", "velocity");
     columns.push_back({"pressure", "pressure"});
   }
-  probe.csv = std::make_unique<output::CsvWriter>(folder_, "probe-" + probe.name + ".csv", columns);
+  probe.csv = std::make_unique<output::CsvWriter>(folder_, "probe-" + probe.name + ".csv", columns, earlier);
+  for (const std::vector<double>& row : probe.csv->rows()) {
+    probe.t.push_back(row[0]);
+    for (int d = 0; d < 3; ++d)
+      probe.value[d].push_back(row[1 + d]);
+  }
   probes_.push_back(std::move(probe));
 }
 
 bool Recorder::record(const StepRecord& record)
 {
   const double now = seconds_now();
-  seconds_stepping_ += now - last_step_ended_;
+  tally_.seconds_stepping += now - last_step_ended_;
   const double t = record.step.t_new;
   if (auto* flow = simulation_.surroundings().flow())
     flow->fill_halos();
-  largest_divergence_ = std::max(largest_divergence_, record.flow.divergence);
-  largest_cfl_ = std::max(largest_cfl_, record.rates.convective * record.step.dt);
-  coupling_iterations_ += record.coupling.iterations;
-  most_coupling_iterations_ = std::max(most_coupling_iterations_, record.coupling.iterations);
-  pressure_iterations_ += record.flow.pressure_iterations;
-  halvings_ += record.halvings;
+  tally_.largest_divergence = std::max(tally_.largest_divergence, record.flow.divergence);
+  tally_.largest_cfl = std::max(tally_.largest_cfl, record.rates.convective * record.step.dt);
+  tally_.coupling_iterations += record.coupling.iterations;
+  tally_.most_coupling_iterations = std::max<std::int64_t>(tally_.most_coupling_iterations, record.coupling.iterations);
+  tally_.pressure_iterations += record.flow.pressure_iterations;
+  tally_.halvings += record.halvings;
   if (record.halvings > 0)
     log_->warn("step {}, t = {:.6g}: taken with half its length {} times: {}", record.step.index, record.step.t_new,
                record.halvings, record.trouble);
@@ -156,6 +190,10 @@ bool Recorder::record(const StepRecord& record)
     write_snapshots(t, record.step.dt, /*last=*/false);
   }
   write_steps(record);
+  recorded_steps_ = record.step.index;
+  if (checkpoint_due_.due(t))
+    if (const std::string trouble = try_checkpoint(); !trouble.empty())
+      log_->warn("step {}, t = {:.6g}: {}", record.step.index, t, trouble);
   show_progress(record);
   last_step_ended_ = seconds_now();
   return !(folder_.stop_requested() || interrupted_());
@@ -186,7 +224,7 @@ void Recorder::write_steps(const StepRecord& record)
   for (std::size_t n = 0; n < phase_names.size(); ++n) {
     const double seconds = simulation_.profile().all()[n] + (flow ? flow->profile().all()[n] : 0.0);
     row.push_back(seconds);
-    profile_.add(static_cast<Phase>(n), seconds);
+    tally_.phases[n] += seconds;
   }
   simulation_.profile().reset();
   if (flow)
@@ -207,24 +245,24 @@ void Recorder::append_contact(std::vector<double>& row)
   row.push_back(contact->energy());
   row.push_back(double(report.active_pairs));
   row.push_back(report.active_pairs > 0 ? report.smallest_gap : nothing);
-  most_pairs_ = std::max(most_pairs_, report.active_pairs);
-  smallest_gap_ = std::min(smallest_gap_, report.smallest_gap);
+  tally_.most_pairs = std::max<std::int64_t>(tally_.most_pairs, report.active_pairs);
+  tally_.smallest_gap = std::min(tally_.smallest_gap, report.smallest_gap);
 }
 
 /// Contact is built so that none occur; a run says what it saw all the same.
 void Recorder::count_crossings()
 {
   if (const shell::ContactStep* contact = simulation_.structure().contact())
-    crossings_ += contact->crossings().count;
+    tally_.crossings += contact->crossings().count;
 }
 
 void Recorder::report_contact(nlohmann::ordered_json& summary) const
 {
-  summary["contact"] = {{"most_pairs", most_pairs_}, {"crossings", crossings_}};
-  if (most_pairs_ > 0)
-    summary["contact"]["smallest_gap"] = smallest_gap_;
-  if (crossings_ > 0)
-    log_->warn("contact: {} edges pass through triangles in all written instants together", crossings_);
+  summary["contact"] = {{"most_pairs", tally_.most_pairs}, {"crossings", tally_.crossings}};
+  if (tally_.most_pairs > 0)
+    summary["contact"]["smallest_gap"] = tally_.smallest_gap;
+  if (tally_.crossings > 0)
+    log_->warn("contact: {} edges pass through triangles in all written instants together", tally_.crossings);
 }
 
 void Recorder::warn_about_limits(const StepRecord& record)
@@ -233,7 +271,7 @@ void Recorder::warn_about_limits(const StepRecord& record)
   const double diffusion = record.rates.diffusive * record.step.dt;
   if (cfl <= fluid::convective_limit && diffusion <= fluid::diffusive_limit)
     return;
-  if (steps_beyond_limits_++ == 0)
+  if (tally_.steps_beyond_limits++ == 0)
     log_->warn(
         "step {}, t = {:.6g}: CFL {:.2f} (recommended at most {}), diffusion number {:.2f} (at most {}): the run may "
         "become unstable; shorten time.step or set time.cfl",
@@ -389,11 +427,82 @@ void Recorder::report_oscillations(nlohmann::ordered_json& summary)
   }
 }
 
+std::vector<const output::CsvWriter*> Recorder::tables() const
+{
+  std::vector<const output::CsvWriter*> all{&*steps_};
+  for (const output::CsvWriter& table : forces_)
+    all.push_back(&table);
+  for (const Probe& probe : probes_)
+    all.push_back(probe.csv.get());
+  return all;
+}
+
+std::vector<const output::SeriesMark*> Recorder::series() const
+{
+  std::vector<const output::SeriesMark*> all;
+  if (fields_)
+    all.push_back(&fields_->mark());
+  for (const output::SurfaceSeries& surface : surfaces_)
+    all.push_back(&surface.mark());
+  return all;
+}
+
+Record Recorder::record_so_far() const
+{
+  Record record{tally_, {}};
+  record.tally.seconds = seconds_now() - started_;
+  for (const output::CsvWriter* table : tables())
+    record.output.tables.push_back(table->mark());
+  for (const output::SeriesMark* mark : series())
+    record.output.series.push_back(*mark);
+  return record;
+}
+
+/// Empty if it was written; else what went wrong, and the run may go on without.
+std::string Recorder::try_checkpoint()
+{
+  const auto timer = simulation_.profile().time(Phase::Output);
+  try {
+    bool flushed = true;
+    for (const output::CsvWriter* table : tables())
+      flushed = table->flush() && flushed;
+    if (!on_all_ranks(folder_.comm(), flushed))
+      fail_run("tables cannot be written to disk");
+    write_checkpoint(folder_, options_, simulation_, record_so_far());
+    checkpointed_steps_ = simulation_.clock().steps();
+    return "";
+  } catch (const RunError& error) {
+    ++failed_checkpoints_;
+    return fmt::format("no checkpoint: {}", error.what());
+  }
+}
+
+/// A run that is stopped or fails can go on, and one that made checkpoints can be made longer.  What went wrong, if
+/// anything did.
+std::string Recorder::checkpoint_at_end(Ending ending)
+{
+  const int steps = simulation_.clock().steps();
+  if (steps == 0 || steps == checkpointed_steps_ || (ending == Ending::Finished && !options_.output.checkpoint))
+    return "";
+  if (ending == Ending::Failed && !all_ranks_arrive(folder_.comm()))
+    return "no checkpoint: the ranks of the run have lost each other";
+  if (recorded_steps_ != steps)
+    return "no checkpoint: the tables lack the last step";
+  const std::string trouble = try_checkpoint();
+  if (trouble.empty() && ending != Ending::Finished)
+    log_->info("go on from here with: luff run CASE --restart {}", folder_.path().string());
+  return trouble;
+}
+
 void Recorder::finish(Ending ending, const std::string& reason)
 {
   if (folder_.writes())
     progress_.finish();
   const Clock& clock = simulation_.clock();
+  // Before the last instant, which is not one of the series' own if the run goes on.
+  const std::string trouble = checkpoint_at_end(ending);
+  if (!trouble.empty())
+    log_->warn("{}", trouble);
   if (ending != Ending::Failed && clock.steps() > 0)
     write_snapshots(clock.now(), options_.time.step, /*last=*/true);
   const char* const state = ending == Ending::Finished ? "finished" : ending == Ending::Stopped ? "stopped" : "failed";
@@ -404,20 +513,24 @@ void Recorder::finish(Ending ending, const std::string& reason)
                                  {"seconds", seconds_now() - started_}};
   if (!reason.empty())
     summary["reason"] = reason;
+  if (tally_.restarts > 0)
+    summary["restarts"] = tally_.restarts;
+  if (failed_checkpoints_ > 0)
+    summary["failed_checkpoints"] = failed_checkpoints_;
   const double steps = std::max(1, clock.steps());
   if (auto* flow = simulation_.surroundings().flow()) {
     const long cells = flow->grid().ranks().domain().volume();
     summary["cells"] = cells;
-    summary["max_divergence"] = largest_divergence_;
-    summary["max_cfl"] = largest_cfl_;
-    summary["steps_beyond_recommended_limits"] = steps_beyond_limits_;
-    summary["mean_pressure_iterations"] = pressure_iterations_ / steps;
-    summary["microseconds_per_cell_and_step"] = 1e6 * seconds_stepping_ / (double(cells) * steps);
+    summary["max_divergence"] = tally_.largest_divergence;
+    summary["max_cfl"] = tally_.largest_cfl;
+    summary["steps_beyond_recommended_limits"] = tally_.steps_beyond_limits;
+    summary["mean_pressure_iterations"] = tally_.pressure_iterations / steps;
+    summary["microseconds_per_cell_and_step"] = 1e6 * tally_.seconds_stepping / (double(cells) * steps);
   }
   if (!options_.shells.empty()) {
-    summary["mean_coupling_iterations"] = coupling_iterations_ / steps;
-    summary["max_coupling_iterations"] = most_coupling_iterations_;
-    summary["halved_steps"] = halvings_;
+    summary["mean_coupling_iterations"] = tally_.coupling_iterations / steps;
+    summary["max_coupling_iterations"] = tally_.most_coupling_iterations;
+    summary["halved_steps"] = tally_.halvings;
     summary["mean_newton_iterations"] = double(simulation_.structure().newton_iterations()) / steps;
     summary["folds_above_45_degrees"] = simulation_.structure().sharp_folds();
     summary["triangles_on_a_conic"] = simulation_.structure().shells().shell->n_hinge_patches();
@@ -426,13 +539,13 @@ void Recorder::finish(Ending ending, const std::string& reason)
   if (simulation_.structure().contact() != nullptr)
     report_contact(summary);
   for (std::size_t n = 0; n < phase_names.size(); ++n)
-    summary["phases"][phase_names[n]] = profile_.all()[n];
+    summary["phases"][phase_names[n]] = tally_.phases[n];
   log_->info("{} at t = {:.6g} after {} steps in {:.1f} s", state, clock.now(), clock.steps(),
              seconds_now() - started_);
   if (options_.fluid)
-    log_->info("largest max |div U| h/|U| of all steps: {:.1e}", largest_divergence_);
-  if (steps_beyond_limits_ > 0)
-    log_->warn("{} steps went beyond the recommended CFL or diffusion number", steps_beyond_limits_);
+    log_->info("largest max |div U| h/|U| of all steps: {:.1e}", tally_.largest_divergence);
+  if (tally_.steps_beyond_limits > 0)
+    log_->warn("{} steps went beyond the recommended CFL or diffusion number", tally_.steps_beyond_limits);
   if (simulation_.structure().sharp_folds() > 0)
     log_->warn("{} edges in all steps together folded by more than 45 degrees: refine the shell's mesh there",
                simulation_.structure().sharp_folds());
@@ -440,6 +553,8 @@ void Recorder::finish(Ending ending, const std::string& reason)
   output::write_summary(folder_, summary);
   if (ending != Ending::Failed)
     name_files();
+  if (ending == Ending::Stopped && !trouble.empty())
+    fail_run("{}", trouble);
 }
 
 void Recorder::name_files() const

@@ -5,7 +5,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,9 @@
 #include "output/run_folder.hpp"
 #include "output/series.hpp"
 #include "simulation/cadence.hpp"
+#include "simulation/checkpoint.hpp"
 #include "simulation/simulation.hpp"
+#include "simulation/tally.hpp"
 
 namespace luff::simulation {
 
@@ -29,12 +30,14 @@ enum class Ending { Finished, Stopped, Failed };
 /// Observes a run and writes its folder.  Collective.
 class Recorder {
  public:
+  /// Of a run that starts, or of one that goes on after `earlier`.
   Recorder(const output::RunFolder& folder, std::shared_ptr<spdlog::logger> log, const config::Case& options,
-           Simulation& simulation, std::function<bool()> interrupted);
+           Simulation& simulation, std::function<bool()> interrupted, const Record* earlier = nullptr);
 
   /// Records an accepted step; false when the user asks the run to end.
   bool record(const StepRecord& record);
-  /// Writes the last instant and the summary.  `reason` is the message of a failure.
+  /// Writes a checkpoint where the run may go on from here, the last instant and the summary.  `reason` is the message
+  /// of a failure.  Throws RunError, after all of it, if a stopped run's checkpoint could not be written.
   void finish(Ending ending, const std::string& reason);
 
  private:
@@ -46,8 +49,14 @@ class Recorder {
     std::array<std::vector<double>, 3> value;  ///< displacement or velocity
     std::unique_ptr<output::CsvWriter> csv;
   };
-  void open_tables();
-  void open_probe(const config::ProbeOptions& options);
+  void open_tables(const output::EarlierOutput* earlier);
+  void open_probe(const config::ProbeOptions& options, const output::EarlierOutput* earlier);
+  void resume(const Record& earlier);
+  [[nodiscard]] std::vector<const output::CsvWriter*> tables() const;
+  [[nodiscard]] std::vector<const output::SeriesMark*> series() const;
+  [[nodiscard]] Record record_so_far() const;
+  [[nodiscard]] std::string try_checkpoint();
+  [[nodiscard]] std::string checkpoint_at_end(Ending ending);
   void write_steps(const StepRecord& record);
   void append_contact(std::vector<double>& row);
   void count_crossings();
@@ -71,27 +80,20 @@ class Recorder {
   output::Progress progress_;
   Cadence fields_due_;
   Cadence shells_due_;
+  Cadence checkpoint_due_;
   std::optional<output::FlowSeries> fields_;
   std::vector<output::SurfaceSeries> surfaces_;
   std::vector<output::CsvWriter> forces_;
   std::optional<output::CsvWriter> steps_;
   std::vector<Probe> probes_;
 
-  Profile profile_;  ///< of the whole run
+  Tally tally_;
   double started_ = 0.0;
   double last_step_ended_ = 0.0;
-  double largest_divergence_ = 0.0;
-  double largest_cfl_ = 0.0;
-  long coupling_iterations_ = 0;
-  int most_coupling_iterations_ = 0;
-  long pressure_iterations_ = 0;
-  long halvings_ = 0;
-  long steps_beyond_limits_ = 0;
-  long newton_iterations_ = 0;  ///< up to the last step written
-  int most_pairs_ = 0;
-  double smallest_gap_ = std::numeric_limits<double>::infinity();
-  long crossings_ = 0;
-  double seconds_stepping_ = 0.0;
+  long newton_iterations_ = 0;   ///< up to the last step written
+  int recorded_steps_ = 0;       ///< whose lines are in all tables
+  int checkpointed_steps_ = -1;  ///< of the last checkpoint; -1: none yet
+  long failed_checkpoints_ = 0;
 };
 
 }  // namespace luff::simulation

@@ -54,6 +54,8 @@ class Simulation {
   void run(const Observer& observe);
 
   [[nodiscard]] const Clock& clock() const { return clock_; }
+  [[nodiscard]] Clock& clock() { return clock_; }
+  [[nodiscard]] coupling::Acceleration& acceleration() { return *acceleration_; }
   [[nodiscard]] Structure& structure() { return *structure_; }
   [[nodiscard]] Surroundings& surroundings() { return *surroundings_; }
   /// Seconds in the structure's solver since the last reset.

@@ -124,6 +124,14 @@ void Structure::accept(const TimeStep& step, const Eigen::VectorXd& d)
     sharp_folds_ += shells_.dynamics->accept(d, step.t_new, step.dt, forces_on_shells()).n_sharp;
 }
 
+void Structure::restore(const shell::Checkpoint& shells, long newton_iterations, long sharp_folds)
+{
+  if (shells_.dynamics)
+    shells_.dynamics->restore(shells);
+  newton_iterations_ = newton_iterations;
+  sharp_folds_ = sharp_folds;
+}
+
 std::vector<Vec3> Structure::accepted_positions(double t) const
 {
   std::vector<Vec3> positions;

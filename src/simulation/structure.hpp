@@ -82,6 +82,8 @@ class Structure {
   [[nodiscard]] std::string place_of(const Eigen::VectorXd& d) const;
   /// Of all shells together.
   [[nodiscard]] shell::EnergyLedger energy() const;
+  /// Go on from an earlier run's accepted state: its shells' and how many there were of what is counted.
+  void restore(const shell::Checkpoint& shells, long newton_iterations, long sharp_folds);
   /// Null without contact.
   [[nodiscard]] const shell::ContactStep* contact() const
   {

@@ -99,6 +99,7 @@ class Process {
   }
 
   void signal(int number) const { kill(id_, number); }
+  [[nodiscard]] pid_t id() const { return id_; }
 
   /// What the program said until now.
   [[nodiscard]] std::string said() const { return contents_of(output_); }

@@ -234,6 +234,8 @@ const BadInput rules[] = {
      "case.toml:37: contact.distance = 0 must be a number > 0"},
     {"AnAnalysisOfAFlowIsStatic", "[time]\nend = 2.0\nstep = 0.01", "[structure]\nanalysis = \"static\"",
      "case.toml:3: structure.analysis = \"static\" must be \"dynamic\" with a [fluid]"},
+    {"CheckpointsAreOfNoLength", "fields = { every = 0.5 }", "checkpoint = { every = 0 }",
+     "case.toml:37: output.checkpoint.every = 0 must be a number > 0"},
     {"NoModesAreAsked", "[output]", "[structure]\nanalysis = \"modes\"\nmodes = 0\n[output]",
      "case.toml:38: structure.modes = 0 must be an integer >= 1"},
     {"AStaticAnalysisTakesTime", "[output]", "[structure]\nanalysis = \"static\"\n[output]",
@@ -269,8 +271,6 @@ const BadInput not_yet[] = {
     {"Turbulence", "viscosity = 0.01", "viscosity = 0.01\nturbulence = { model = \"smagorinsky\" }",
      "case.toml:8: fluid.turbulence is not available in this version (available here: density, viscosity, body_force, "
      "initial)"},
-    {"Checkpoints", "fields = { every = 0.5 }", "checkpoint = { every = 0.5 }",
-     "case.toml:37: output.checkpoint is not available in this version (available here: fields, shells, plots, probe)"},
     {"FlowRates", "value = [1, 0, 0]", "value = [1, 0, 0], flow_rate = 3",
      "case.toml:14: boundary.x_min.flow_rate is not available in this version (available here: type, value)"},
 };

@@ -67,5 +67,19 @@ TEST(Aitken, ForgetsItsFactorAfterAStepThatFailed)
   EXPECT_EQ(aitken.factor(), 0.5);
 }
 
+TEST(Aitken, GoesOnFromItsHistoryWithTheSameFactor)
+{
+  Aitken first(0.5, 1);
+  first.begin_step();
+  const VectorXd zero = VectorXd::Zero(1);
+  (void)first.next(zero, VectorXd::Constant(1, 1.0));
+  (void)first.next(VectorXd::Constant(1, 0.5), VectorXd::Constant(1, -2.0));
+  first.end_step(/*converged=*/true);
+  EXPECT_NE(first.factor(), 0.5);
+  Aitken second(0.5, 1);
+  second.restore(first.history());
+  EXPECT_EQ(second.factor(), first.factor());
+}
+
 }  // namespace
 }  // namespace luff::coupling::test

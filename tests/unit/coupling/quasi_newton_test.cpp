@@ -155,5 +155,21 @@ TEST(QuasiNewton, ForgetsEverythingAfterAStepThatFailed)
   EXPECT_EQ(guess, VectorXd::Constant(30, 0.5));
 }
 
+/// The next guesses of a step whose map is the same for both.
+TEST(QuasiNewton, GoesOnFromItsHistoryWithTheSameBits)
+{
+  QuasiNewton first(0.5, 2, 1e-2);
+  (void)iterations_of_sequence(first, 4);
+  QuasiNewton second(0.5, 2, 1e-2);
+  second.restore(first.history());
+  EXPECT_EQ(second.steps_kept(), first.steps_kept());
+  EXPECT_EQ(iterations_of_sequence(second, 3), iterations_of_sequence(first, 3));
+  const VectorXd d = random_vector(30, 14), image = random_vector(30, 15);
+  first.begin_step();
+  second.begin_step();
+  EXPECT_EQ(first.next(d, image), second.next(d, image));
+  EXPECT_GT(first.columns_used(), 0);
+}
+
 }  // namespace
 }  // namespace luff::coupling::test

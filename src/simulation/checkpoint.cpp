@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/checkpoint.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/changes.hpp"
+#include "core/error.hpp"
+#include "output/checkpoint_file.hpp"
+#include "output/checkpoint_folder.hpp"
+#include "parallel/for_each.hpp"
+#include "surface/mesh.hpp"
+
+namespace luff::simulation {
+
+namespace {
+
+// What is in a checkpoint: a line for each item.  `File` is a CheckpointSize, CheckpointWriter or CheckpointReader, so
+// that sizing, writing and reading cannot differ.
+
+template <class File, class State>
+void transfer_flow(File& file, State& flow)
+{
+  file.cells("flow/u", flow.u);
+  file.faces("flow/U", flow.U);
+  file.cells("flow/p", flow.p);
+  file.cells("flow/p_before", flow.p_before);
+  file.value("flow/steps", flow.steps);
+}
+
+template <class File, class Offsets>
+void transfer_offsets(File& file, Offsets& offsets)
+{
+  file.pieces("flow/cut_face", offsets.face);
+  file.pieces("flow/cut_face_offset", offsets.offset);
+}
+
+template <class File, class Checkpoint>
+void transfer_shells(File& file, Checkpoint& shells)
+{
+  file.value("shells/x", shells.state.x);
+  file.value("shells/v", shells.state.v);
+  file.value("shells/a", shells.state.a);
+  file.value("shells/t", shells.state.t);
+  file.value("shells/step", shells.step);
+  file.value("shells/fluid_forces", shells.fluid_forces);
+  file.value("shells/kinetic", shells.ledger.kinetic);
+  file.value("shells/elastic", shells.ledger.elastic);
+  file.value("shells/contact", shells.ledger.contact);
+  file.value("shells/damping_work", shells.ledger.damping_work);
+  file.value("shells/external_work", shells.ledger.external_work);
+  file.value("shells/support_work", shells.ledger.support_work);
+  file.value("shells/tangent_x", shells.linearisation.x);
+  file.value("shells/tangent_x_frozen", shells.linearisation.x_frozen);
+  file.value("shells/tangent_t", shells.linearisation.t);
+  file.value("shells/tangent_t_frozen", shells.linearisation.t_frozen);
+  file.value("shells/tangent_dt", shells.linearisation.dt);
+}
+
+template <class File, class History>
+void transfer_coupling(File& file, History& history)
+{
+  file.value("coupling/factor", history.factor);
+  file.value("coupling/columns", history.columns);
+  file.value("coupling/lengths", history.lengths);
+  file.value("coupling/residuals", history.residuals);
+  file.value("coupling/images", history.images);
+}
+
+template <class File, class T>
+void transfer_tally(File& file, T& tally)
+{
+  file.value("tally/largest_divergence", tally.largest_divergence);
+  file.value("tally/largest_cfl", tally.largest_cfl);
+  file.value("tally/coupling_iterations", tally.coupling_iterations);
+  file.value("tally/most_coupling_iterations", tally.most_coupling_iterations);
+  file.value("tally/pressure_iterations", tally.pressure_iterations);
+  file.value("tally/halvings", tally.halvings);
+  file.value("tally/steps_beyond_limits", tally.steps_beyond_limits);
+  file.value("tally/most_pairs", tally.most_pairs);
+  file.value("tally/smallest_gap", tally.smallest_gap);
+  file.value("tally/crossings", tally.crossings);
+  file.value("tally/seconds", tally.seconds);
+  file.value("tally/seconds_stepping", tally.seconds_stepping);
+  for (std::size_t n = 0; n < phase_names.size(); ++n)
+    file.value(std::string("tally/seconds_") + phase_names[n], tally.phases[n]);
+  file.value("tally/restarts", tally.restarts);
+}
+
+/// Where and when a run stands, and what it counted, besides the states of flow, shells and coupling.
+struct Progress {
+  double t = 0.0;
+  int steps = 0;
+  long newton_iterations = 0;
+  long sharp_folds = 0;
+  std::string keys;   ///< of the case
+  std::string marks;  ///< of tables and series
+};
+
+template <class File, class P>
+void transfer_progress(File& file, P& progress)
+{
+  file.value("clock/t", progress.t);
+  file.value("clock/steps", progress.steps);
+  file.value("structure/newton_iterations", progress.newton_iterations);
+  file.value("structure/sharp_folds", progress.sharp_folds);
+  file.value("case", progress.keys);
+  file.value("output", progress.marks);
+}
+
+/// What a run goes on with must be what it began with: the vertices of all surfaces at the start, and the grid.
+struct Shape {
+  std::string what;
+  std::string name;
+  std::vector<double> numbers;
+};
+
+/// Sums over cells of V, V x_d and V x_d^2: another grid of as many cells has others.  Collective.
+std::vector<double> moments_of(const grid::Grid& grid)
+{
+  std::vector<double> moments(7, 0.0);
+  for_each_cell_in_order(grid.owned(), [&](int i, int j, int k) {
+    const Vec3 x = grid.centre(i, j, k);
+    const double V = grid.volume(i, j, k);
+    moments[0] += V;
+    for (int d = 0; d < 3; ++d) {
+      moments[1 + d] += V * x[d];
+      moments[4 + d] += V * x[d] * x[d];
+    }
+  });
+  for (double& moment : moments)
+    moment = grid.ranks().sum(moment);
+  return moments;
+}
+
+std::vector<Shape> shapes_of(Simulation& simulation)
+{
+  std::vector<Shape> shapes;
+  for (const SheetRange& sheet : simulation.structure().sheets()) {
+    const Eigen::VectorXd x = surface::interleaved(sheet.reference.vertices);
+    shapes.push_back({"the mesh of '" + sheet.name + "'", "mesh/" + sheet.name, {x.begin(), x.end()}});
+  }
+  if (const auto* flow = simulation.surroundings().flow())
+    shapes.push_back({"the grid", "grid/moments", moments_of(flow->grid())});
+  return shapes;
+}
+
+/// The parts of a run as they are saved.
+struct Saved {
+  Progress progress;
+  Tally tally;
+  std::vector<Shape> shapes;
+  const fluid::FlowState* flow = nullptr;
+  immersed::FluxOffsets offsets = {};
+  shell::Checkpoint shells = {};
+  coupling::History history;
+};
+
+Saved collect(const config::Case& options, Simulation& simulation, const Record& record)
+{
+  const Structure& structure = simulation.structure();
+  Saved saved{.progress = {.t = simulation.clock().now(),
+                           .steps = simulation.clock().steps(),
+                           .newton_iterations = structure.newton_iterations(),
+                           .sharp_folds = structure.sharp_folds(),
+                           .keys = config::list_keys(options),
+                           .marks = output::text_of_marks(record.output)},
+              .tally = record.tally,
+              .shapes = shapes_of(simulation),
+              .history = simulation.acceleration().history()};
+  if (const auto* flow = simulation.surroundings().flow()) {
+    saved.flow = &flow->state();
+    saved.offsets = flow->links().accepted_offsets();
+  }
+  if (structure.shells().dynamics)
+    saved.shells = structure.shells().dynamics->checkpoint();
+  return saved;
+}
+
+template <class File>
+void put(File& file, const Saved& saved)
+{
+  transfer_progress(file, saved.progress);
+  transfer_tally(file, saved.tally);
+  for (const Shape& shape : saved.shapes)
+    file.value(shape.name, shape.numbers);
+  if (saved.flow != nullptr) {
+    transfer_flow(file, *saved.flow);
+    transfer_offsets(file, saved.offsets);
+  }
+  transfer_shells(file, saved.shells);
+  transfer_coupling(file, saved.history);
+}
+
+/// Other bits may come from another compiler; another mesh or grid differs by more than round-off.
+void require_same_shapes(const output::CheckpointReader& file, Simulation& simulation)
+{
+  constexpr double round_off = 1e-9;
+  for (const Shape& shape : shapes_of(simulation)) {
+    std::vector<double> before;
+    file.value(shape.name, before);
+    double size = 0.0;
+    for (const double x : before)
+      size = std::max(size, std::abs(x));
+    bool same = before.size() == shape.numbers.size();
+    for (std::size_t n = 0; same && n < before.size(); ++n)
+      same = std::abs(before[n] - shape.numbers[n]) <= round_off * size;
+    if (!same)
+      fail_input("--restart: {} is not what it was when the checkpoint was written, so its run cannot go on",
+                 shape.what);
+  }
+}
+
+void restore_flow(const output::CheckpointReader& file, fluid::FlowSolver& flow, double t)
+{
+  fluid::FlowState state = flow.state();
+  transfer_flow(file, state);
+  immersed::FluxOffsets offsets;
+  transfer_offsets(file, offsets);
+  flow.restore(std::move(state), offsets, t);
+}
+
+}  // namespace
+
+void write_checkpoint(const output::RunFolder& folder, const config::Case& options, Simulation& simulation,
+                      const Record& record)
+{
+  const Saved saved = collect(options, simulation, record);
+  output::CheckpointSize size;
+  put(size, saved);
+  output::CheckpointWriter file(folder.comm(), folder.file(output::checkpoint_name(saved.progress.steps)),
+                                size.bytes());
+  put(file, saved);
+  file.commit();
+  output::keep_last_two(folder, saved.progress.steps);
+}
+
+Resumption resume(MPI_Comm comm, const RestartRequest& request, const config::Case& options, Simulation& simulation)
+{
+  const output::FoundCheckpoint found = output::find_checkpoint(comm, request.from);
+  const output::CheckpointReader file(comm, found.file);
+  Progress progress;
+  transfer_progress(file, progress);
+  Resumption resumption{.folder = std::filesystem::absolute(found.file).parent_path(),
+                        .passed_over = found.passed_over};
+  resumption.changed = config::accept_changes(progress.keys, options, request.case_file, request.overrides);
+  require_same_shapes(file, simulation);
+  if (auto* flow = simulation.surroundings().flow())
+    restore_flow(file, *flow, progress.t);
+  shell::Checkpoint shells;
+  transfer_shells(file, shells);
+  simulation.structure().restore(shells, progress.newton_iterations, progress.sharp_folds);
+  coupling::History history;
+  transfer_coupling(file, history);
+  simulation.acceleration().restore(history);
+  simulation.clock().resume(progress.t, progress.steps);
+  transfer_tally(file, resumption.record.tally);
+  ++resumption.record.tally.restarts;
+  resumption.record.output = output::marks_of_text(progress.marks);
+  resumption.record.output.folder = resumption.folder;
+  if (simulation.clock().finished())
+    fail_input("--restart {}: the run is at its end, t = {:.6g}; let it go on with --set time.end=...",
+               request.from.string(), progress.t);
+  return resumption;
+}
+
+}  // namespace luff::simulation
