@@ -26,7 +26,10 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkObject
-from vtkmodules.vtkIOXML import (vtkXMLPolyDataReader, vtkXMLPRectilinearGridReader, vtkXMLRectilinearGridReader)
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkFiltersCore import vtkCellDataToPointData, vtkProbeFilter
+from vtkmodules.vtkIOXML import (vtkXMLPolyDataReader, vtkXMLPRectilinearGridReader, vtkXMLPStructuredGridReader,
+                                 vtkXMLRectilinearGridReader, vtkXMLStructuredGridReader)
 
 AXES = "xyz"
 COLOURS = ["#1f5fa8", "#d1495b", "#2a9d6f", "#e09f3e", "#7b4fa3", "#4d4d4d", "#38a3c9", "#a0522d"]
@@ -173,13 +176,14 @@ class Plane:
         return [a for a in range(3) if a != self.normal]
 
 
-def mid_plane(sheets, normal=None, box=None):
+def mid_plane(sheets, normal=None, box=None, box_decides=False):
     """Through the middle of the sheets along the axis that their normals keep clear of; z where several do.
 
-    Without sheets, through the middle of the box (low, high)."""
+    Without sheets, through the middle of the box (low, high), across z or, if `box_decides`, its shortest side."""
     if not sheets:
         low, high = box
-        normal = 2 if normal is None else normal
+        if normal is None:
+            normal = int(np.argmin(high - low)) if box_decides else 2
         return Plane(normal, 0.5 * (low[normal] + high[normal]))
     points = np.vstack([sheet.points for sheet in sheets])
     if normal is None:
@@ -194,12 +198,20 @@ def mid_plane(sheets, normal=None, box=None):
 class Slice:
     centres: list           # coordinates along the plane's two axes
     plane: Plane            # through the cells' centres
-    vorticity: np.ndarray   # component along the normal, (second axis, first axis)
+    vorticity: np.ndarray   # component along the normal, (second axis, first axis); NaN outside of a curvilinear grid
     velocity: np.ndarray    # mean over the slice, 3 components
 
 
+FLOW_READERS = {".vtr": vtkXMLRectilinearGridReader, ".pvtr": vtkXMLPRectilinearGridReader,
+                ".vts": vtkXMLStructuredGridReader, ".pvts": vtkXMLPStructuredGridReader}
+
+
+def is_curvilinear(path):
+    return path.suffix in (".vts", ".pvts")
+
+
 def flow_reader(path):
-    reader = vtkXMLPRectilinearGridReader() if path.suffix == ".pvtr" else vtkXMLRectilinearGridReader()
+    reader = FLOW_READERS[path.suffix]()
     reader.SetFileName(str(path))
     reader.UpdateInformation()
     arrays = reader.GetCellDataArraySelection()
@@ -220,7 +232,46 @@ def node_coordinates(grid):
 
 
 def read_slice(path, plane):
-    """The layer of cells around the plane."""
+    """The layer of cells around the plane; of a curvilinear grid, values on a raster in the plane."""
+    return read_raster(path, plane) if is_curvilinear(path) else read_layer(path, plane)
+
+
+def read_raster(path, plane, longest=400):
+    """Values at points of the plane, `longest` of them along the longer side of the grid."""
+    reader = flow_reader(path)
+    to_points = vtkCellDataToPointData()
+    to_points.SetInputConnection(reader.GetOutputPort())
+    to_points.Update()
+    grid = to_points.GetOutput()
+    if grid.GetPointData().GetArray("vorticity") is None:
+        return None
+    low, high = np.array(grid.GetBounds()).reshape(3, 2).T
+    spacing = (high - low)[plane.axes].max() / longest
+    counts, origin, spacings = [1, 1, 1], [0.0, 0.0, 0.0], [1.0, 1.0, 1.0]
+    origin[plane.normal] = plane.position
+    for a in plane.axes:
+        counts[a] = max(2, int(np.ceil((high[a] - low[a]) / spacing)))
+        spacings[a] = (high[a] - low[a]) / counts[a]
+        origin[a] = low[a] + 0.5 * spacings[a]
+    raster = vtkImageData()
+    raster.SetDimensions(counts)
+    raster.SetOrigin(origin)
+    raster.SetSpacing(spacings)
+    probe = vtkProbeFilter()
+    probe.SetSourceData(grid)
+    probe.SetInputData(raster)
+    probe.Update()
+    data = probe.GetOutput().GetPointData()
+    shape = tuple(counts[a] for a in reversed(plane.axes))
+    inside = vtk_to_numpy(data.GetArray(probe.GetValidPointMaskArrayName())).reshape(shape) > 0
+    vorticity = vtk_to_numpy(data.GetArray("vorticity"))[:, plane.normal].reshape(shape)
+    velocity = data.GetArray("velocity")
+    mean = vtk_to_numpy(velocity)[inside.ravel()].mean(axis=0) if velocity is not None and inside.any() else np.zeros(3)
+    centres = [origin[a] + spacings[a] * np.arange(counts[a]) for a in plane.axes]
+    return Slice(centres, plane, np.where(inside, vorticity, np.nan), mean)
+
+
+def read_layer(path, plane):
     reader = flow_reader(path)
     reader.Update()
     grid = reader.GetOutput()
@@ -268,7 +319,7 @@ def largest_shown(slices, limits):
     for flow in slices:
         inside = [(x >= lo) & (x <= hi) for x, lo, hi in zip(flow.centres, low, high)]
         visible.append(np.abs(flow.vorticity[np.ix_(inside[1], inside[0])]).ravel())
-    limit = float(np.percentile(np.concatenate(visible), 99)) if visible else 0.0
+    limit = float(np.nanpercentile(np.concatenate(visible), 99)) if visible else 0.0
     return limit if limit > 0 else 1.0
 
 
@@ -279,7 +330,8 @@ def draw_sections(axis, sheets, plane, colour="black", width=2.2):
 
 
 def draw_vorticity(axis, flow, sheets, limits, colour_limit, time):
-    image = axis.pcolormesh(*flow.centres, flow.vorticity, shading="gouraud", cmap="RdBu_r", vmin=-colour_limit,
+    shading = "nearest" if np.isnan(flow.vorticity).any() else "gouraud"
+    image = axis.pcolormesh(*flow.centres, flow.vorticity, shading=shading, cmap="RdBu_r", vmin=-colour_limit,
                             vmax=colour_limit, rasterized=True)
     draw_sections(axis, sheets, flow.plane)
     axis.set_aspect("equal")
@@ -331,7 +383,8 @@ def plot_vorticity(flow_instants, surfaces, count, normal, out):
     chosen = equally_spaced(flow_instants, count)
     sheets_at = {i.time: [read_sheet(nearest(s, i.time).path) for s in surfaces] for i in chosen}
     everything = [sheet for sheets in sheets_at.values() for sheet in sheets]
-    plane = mid_plane(everything, normal, None if everything else whole_box(chosen[-1].path))
+    last = chosen[-1].path
+    plane = mid_plane(everything, normal, None if everything else whole_box(last), box_decides=is_curvilinear(last))
     frames = [(i.time, read_slice(i.path, plane), sheets_at[i.time]) for i in chosen]
     if any(flow is None for _, flow, _ in frames):
         return []

@@ -40,12 +40,13 @@ void state_names_rule(Schema& s, const Case& options)
 void state_periodic_rule(Schema& s, const Case& options)
 {
   const auto& sides = options.boundary.sides;
+  const auto& names = options.boundary.names();
   const auto is_periodic = [&](std::size_t side) { return sides[side].type == SideType::Periodic; };
   for (std::size_t low = 0; low < sides.size(); low += 2) {
     const std::size_t high = low + 1;
     const std::size_t alone = is_periodic(low) ? low : high;
-    s.rule(is_periodic(low) == is_periodic(high), fmt::format("boundary.{}.type", side_names[alone]), "must be paired",
-           fmt::format(": {} is not periodic", side_names[alone == low ? high : low]));
+    s.rule(is_periodic(low) == is_periodic(high), fmt::format("boundary.{}.type", names[alone]), "must be paired",
+           fmt::format(": {} is not periodic", names[alone == low ? high : low]));
   }
 }
 
@@ -60,8 +61,11 @@ void state_material_rule(Schema& s, const Case& options)
   }
 }
 
-bool is_inside(const Vec3& point, const GridOptions& grid)
+/// Of a curvilinear grid it turns out when the grid is made.
+bool may_be_inside(const Vec3& point, const GridOptions& grid)
 {
+  if (is_curvilinear(grid.kind))
+    return true;
   for (int d = 0; d < 3; ++d)
     if (point[d] < grid.axes[d].from || point[d] > grid.axes[d].to)
       return false;
@@ -81,7 +85,7 @@ void state_probe_rules(Schema& s, const Case& options)
              suggestion(*probe.shell, surfaces));
     } else {
       s.rule(options.fluid.has_value(), key, "must name a `shell`: without [fluid] there is no flow to stand in");
-      s.rule(!options.fluid || is_inside(probe.point, options.grid), key + ".point", "must lie in the grid");
+      s.rule(!options.fluid || may_be_inside(probe.point, options.grid), key + ".point", "must lie in the grid");
     }
   }
 }
@@ -101,6 +105,8 @@ void state_case_rules(Schema& s, const Case& options)
               (options.structure.analysis == Analysis::Dynamic || options.structure.analysis == Analysis::Static)),
          "structure.solver", "must be \"direct\" for modes, on paths with unstable equilibria, and with damping");
   s.rule(flows || options.contact || options.bodies.empty(), "body", "must be left out without a [fluid] or [contact]");
+  s.rule(!flows || !is_curvilinear(options.grid.kind) || (options.shells.empty() && options.bodies.empty()),
+         "grid.kind", "must be \"box\" with shells or bodies in this version");
   s.rule(flows || !options.output.fields, "output.fields", "must be left out without a [fluid]");
   s.rule(options.structure.analysis == Analysis::Dynamic || !options.output.checkpoint, "output.checkpoint",
          "must be left out unless `structure.analysis = \"dynamic\"`");

@@ -16,16 +16,21 @@ void describe_name(Schema& s, std::string& name, std::string_view doc);
 void describe(Schema& s, TimeOptions& time);
 void describe(Schema& s, FluidOptions& fluid);
 void describe(Schema& s, InitialOptions& initial);
-void describe(Schema& s, GridOptions& grid);
-void describe(Schema& s, AxisOptions& axis);
-void describe(Schema& s, RefineOptions& refine);
 void describe(Schema& s, BoundaryOptions& boundary);
 void describe(Schema& s, SideOptions& side);
+
+// Where it is computed (describe_grid.cpp).
+void describe(Schema& s, GridOptions& grid);
+void describe(Schema& s, AxisOptions& axis);
+void describe(Schema& s, CellsOptions& direction);
+void describe(Schema& s, RefineOptions& refine);
+void describe(Schema& s, PieceOptions& piece);
+void describe(Schema& s, BendOptions& bend);
+void describe(Schema& s, AngleOptions& angle);
 
 // Surfaces that move in it (describe_structure.cpp).
 void describe(Schema& s, ShellOptions& shell);
 void describe(Schema& s, MeshOptions& mesh);
-void describe(Schema& s, AngleOptions& angle);
 void describe(Schema& s, PolarOptions& polar);
 void describe(Schema& s, RotateOptions& rotate);
 void describe(Schema& s, DampingOptions& damping);

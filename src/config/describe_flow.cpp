@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keys of [time], [fluid], [grid] and [boundary].
+// Keys of [time], [fluid] and [boundary].
 #include "config/describe.hpp"
-
-#include <cmath>
-
-#include <fmt/core.h>
 
 namespace luff::config {
 
@@ -41,52 +37,14 @@ void describe(Schema& s, InitialOptions& initial)
   s.key("velocity", initial.velocity, {.doc = "Velocity at t = 0; it is made divergence-free.", .unit = "m/s"});
 }
 
-void describe(Schema& s, GridOptions& grid)
-{
-  s.mark(grid.mark);
-  static constexpr std::array<const char*, 3> axes{"x", "y", "z"};
-  s.key("kind", grid.kind, {.doc = "A box with cells of the sizes that its three axes give."});
-  s.tables(axes, grid.axes, {.doc = "Cells along this axis.", .required = true});
-  s.later({"path"});
-}
-
-void describe(Schema& s, AxisOptions& axis)
-{
-  s.mark(axis.mark);
-  s.key("from", axis.from, {.doc = "Low end.", .unit = "m", .required = true});
-  s.key("to", axis.to, {.doc = "High end.", .unit = "m", .required = true});
-  s.key("cells", axis.cells,
-        {.doc = "Number of cells, those of `refine` included. A flow in a plane: one cell, or a few, between sides of "
-                "symmetry.",
-         .range = at_least_one,
-         .required = true,
-         .scaling = Scaling::Count});
-  s.rule(axis.from < axis.to, "to", "must be greater than `from`");
-  s.table("refine", axis.refine,
-          {.doc = "A stretch of equal cells; outside, cells grow towards the ends. Absent: all cells are equal."});
-  if (!axis.refine)
-    return;
-  const auto& refine = *axis.refine;
-  const double cells = std::ceil((refine.to - refine.from) / refine.spacing * (1.0 - 1e-12));
-  const double cells_outside = (refine.from > axis.from ? 1 : 0) + (refine.to < axis.to ? 1 : 0);
-  s.rule(refine.from >= axis.from && refine.to <= axis.to, "refine", "must lie between `from` and `to`");
-  s.rule(cells + cells_outside <= axis.cells, "refine", "must leave a cell for each end",
-         fmt::format(": it takes {} of the {} cells", cells, axis.cells));
-}
-
-void describe(Schema& s, RefineOptions& refine)
-{
-  s.key("from", refine.from, {.doc = "Low end of the stretch.", .unit = "m", .required = true});
-  s.key("to", refine.to, {.doc = "High end of the stretch.", .unit = "m", .required = true});
-  s.key("spacing", refine.spacing,
-        {.doc = "Size of its cells.", .unit = "m", .range = positive, .required = true, .scaling = Scaling::Size});
-  s.rule(refine.from < refine.to, "to", "must be greater than `from`");
-}
-
 void describe(Schema& s, BoundaryOptions& boundary)
 {
   s.mark(boundary.mark);
-  s.tables(side_names, boundary.sides, {.doc = "Condition on this side of the grid.", .required = true});
+  s.tables(
+      boundary.names(), boundary.sides,
+      {.doc = "Condition on this side of the grid. The sides of all kinds of grid but boxes are named by their index "
+              "directions: `xi_min`, `xi_max`, `eta_min`, `eta_max`, `zeta_min`, `zeta_max`.",
+       .required = true});
 }
 
 void describe(Schema& s, SideOptions& side)

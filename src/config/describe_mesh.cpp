@@ -122,14 +122,6 @@ void describe(Schema& s, MeshOptions& mesh)
   });
 }
 
-void describe(Schema& s, AngleOptions& angle)
-{
-  constexpr double turn = 360.0;
-  s.key("from", angle.from, {.doc = "Right-handed about `axis`, from `start`.", .unit = "degrees"});
-  s.key("to", angle.to, {.doc = "Where it ends.", .unit = "degrees"});
-  s.rule(angle.from < angle.to && angle.to - angle.from <= turn, "to", "must be above `from`, by 360 at most");
-}
-
 void describe(Schema& s, PolarOptions& polar)
 {
   constexpr Range pole_to_pole{.low = 0.0, .high = 180.0};

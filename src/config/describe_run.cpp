@@ -13,6 +13,7 @@ void describe(Schema& s, Case& options)
   s.table("fluid", options.fluid, {.doc = "The fluid. Absent: shells alone."});
   s.when(options.fluid.has_value(), "`[fluid]`", [&] {
     s.table("grid", options.grid, {.doc = "Where the flow is computed.", .required = true});
+    options.boundary.curvilinear = is_curvilinear(options.grid.kind);
     s.table("boundary", options.boundary, {.doc = "Conditions on the six sides of the grid.", .required = true});
   });
   s.list("shell", options.shells, {.doc = "A thin flexible shell; any number of them."});

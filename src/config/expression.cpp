@@ -18,18 +18,26 @@
 namespace luff::config {
 namespace {
 
-/// A formula whose variables are x, y, z, t.
+/// A formula whose variables are x, y, z, t; or s.
 class CompiledFormula : public Expression::Function {
  public:
-  explicit CompiledFormula(const std::string& text);
+  CompiledFormula(const std::string& text, Variables allowed);
 
   double evaluate(const Vec3& x, double t) override;
-  bool uses(const std::string& variable) const { return parser_.GetUsedVar().contains(variable); }
+  /// One letter each.
+  std::string used() const
+  {
+    std::string letters;
+    for (const auto& [name, value] : parser_.GetUsedVar())
+      letters += name;
+    return letters;
+  }
 
  private:
   [[noreturn]] void explain(const mu::Parser::exception_type& error) const;
 
   mu::Parser parser_;
+  std::vector<std::string> names_;
   std::array<double, 4> variables_{};
 };
 
@@ -47,14 +55,16 @@ std::size_t find_assignment(const std::string& text)
   return std::string::npos;
 }
 
-CompiledFormula::CompiledFormula(const std::string& text)
+CompiledFormula::CompiledFormula(const std::string& text, Variables allowed)
+    : names_(allowed == Variables::ArcLength ? std::vector<std::string>{"", "", "", "s"}
+                                             : std::vector<std::string>{"x", "y", "z", "t"})
 {
-  static constexpr std::array<const char*, 4> names{"x", "y", "z", "t"};
   if (const auto position = find_assignment(text); position != std::string::npos)
     fail_input("unexpected '=' at character {} (equality is ==)", position + 1);
   try {
-    for (std::size_t i = 0; i < names.size(); ++i)
-      parser_.DefineVar(names[i], &variables_[i]);
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      if (!names_[i].empty())
+        parser_.DefineVar(names_[i], &variables_[i]);
     parser_.DefineConst("pi", std::numbers::pi);
     parser_.SetExpr(text);
     parser_.Eval();
@@ -72,7 +82,9 @@ void CompiledFormula::explain(const mu::Parser::exception_type& error) const
   const std::string token = error.GetToken();
   const bool is_name = !token.empty() && std::isalpha(static_cast<unsigned char>(token.front()));
   if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN && is_name) {
-    std::vector<std::string> known{"x", "y", "z", "t", "pi"};
+    std::vector<std::string> known;
+    std::copy_if(names_.begin(), names_.end(), std::back_inserter(known), [](const auto& n) { return !n.empty(); });
+    known.emplace_back("pi");
     for (const auto& [name, function] : parser_.GetFunDef())
       known.push_back(name);
     if (std::find(known.begin(), known.end(), token) == known.end())
@@ -103,12 +115,11 @@ class ScaledSeries : public Expression::Function {
 
 Expression::Expression(double constant) : source_(constant), constant_(constant) {}
 
-Expression::Expression(Formula formula)
+Expression::Expression(Formula formula, Variables allowed)
 {
-  auto compiled = std::make_shared<CompiledFormula>(formula.text);
-  depends_on_place_ = compiled->uses("x") || compiled->uses("y") || compiled->uses("z");
-  depends_on_time_ = compiled->uses("t");
-  if (depends_on_place_ || depends_on_time_) {
+  auto compiled = std::make_shared<CompiledFormula>(formula.text, allowed);
+  variables_ = compiled->used();
+  if (!variables_.empty()) {
     function_ = std::move(compiled);
   } else {
     constant_ = compiled->evaluate(Vec3::Zero(), 0.0);
@@ -119,9 +130,7 @@ Expression::Expression(Formula formula)
 }
 
 Expression::Expression(ScaledFile file)
-    : source_(file),
-      depends_on_time_(true),
-      function_(std::make_shared<ScaledSeries>(read_time_series(file.file), file.scale))
+    : source_(file), variables_("t"), function_(std::make_shared<ScaledSeries>(read_time_series(file.file), file.scale))
 {
 }
 

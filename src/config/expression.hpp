@@ -25,6 +25,9 @@ struct ScaledFile {
   bool operator==(const ScaledFile&) const = default;
 };
 
+/// The names that a formula may use: x, y, z, t; or s, which stands in the place of t.
+enum class Variables { PlaceAndTime, ArcLength };
+
 /// A scalar that may depend on (x, t). What does not depend on them ("2*pi") is evaluated once, when it is made.
 ///
 /// Copies share their compiled formula, whose variables are set by each evaluation: evaluate from one thread.
@@ -35,13 +38,15 @@ class Expression {
   Expression(double constant = 0.0);  // NOLINT(google-explicit-constructor): a number is an expression
 
   /// \throws InputError naming the character of a formula that is wrong, or the line of the file.
-  explicit Expression(Formula formula);
+  explicit Expression(Formula formula, Variables allowed = Variables::PlaceAndTime);
   explicit Expression(ScaledFile file);
 
   bool is_constant() const { return function_ == nullptr; }
   /// Whether the value changes with place (with time).
-  bool depends_on_place() const { return depends_on_place_; }
-  bool depends_on_time() const { return depends_on_time_; }
+  bool depends_on_place() const { return variables_.find_first_of("xyz") != std::string::npos; }
+  bool depends_on_time() const { return variables_.find('t') != std::string::npos; }
+  /// Those with which the value changes, one letter each.
+  const std::string& variables() const { return variables_; }
 
   double evaluate(const Vec3& x, double t) const { return function_ ? function_->evaluate(x, t) : constant_; }
 
@@ -57,8 +62,7 @@ class Expression {
  private:
   Source source_;
   double constant_ = 0.0;
-  bool depends_on_place_ = false;
-  bool depends_on_time_ = false;
+  std::string variables_;
   std::shared_ptr<Function> function_;
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "config/expression.hpp"
+#include "config/grid_options.hpp"
 #include "config/mark.hpp"
 #include "core/vec3.hpp"
 
@@ -45,36 +46,6 @@ struct FluidOptions {
   bool operator==(const FluidOptions&) const = default;
 };
 
-/// A stretch of an axis with cells of one size.
-struct RefineOptions {
-  double from = 0.0;
-  double to = 0.0;
-  double spacing = 0.0;
-
-  bool operator==(const RefineOptions&) const = default;
-};
-
-struct AxisOptions {
-  double from = 0.0;
-  double to = 0.0;
-  int cells = 0;  ///< in all, with those of `refine`
-  std::optional<RefineOptions> refine;
-  Mark mark = {};
-
-  bool operator==(const AxisOptions&) const = default;
-};
-
-enum class GridKind { Box };
-
-/// [grid]; only with a fluid.
-struct GridOptions {
-  GridKind kind = GridKind::Box;
-  std::array<AxisOptions, 3> axes;  ///< x, y, z
-  Mark mark = {};
-
-  bool operator==(const GridOptions&) const = default;
-};
-
 enum class SideType { Velocity, Wall, Slip, Symmetry, Periodic, Outflow };
 
 struct SideOptions {
@@ -86,12 +57,20 @@ struct SideOptions {
 
 /// The side at the low and the high end of each axis.
 inline constexpr std::array<const char*, 6> side_names{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+/// The same of a curvilinear grid.
+inline constexpr std::array<const char*, 6> curvilinear_side_names{"xi_min",  "xi_max",   "eta_min",
+                                                                   "eta_max", "zeta_min", "zeta_max"};
 
 /// [boundary]; only with a fluid. Periodic sides come in pairs.
 struct BoundaryOptions {
-  std::array<SideOptions, 6> sides;  ///< in the order of side_names
+  std::array<SideOptions, 6> sides;  ///< in the order of names()
+  bool curvilinear = false;          ///< as the grid is
   Mark mark = {};
 
+  [[nodiscard]] const std::array<const char*, 6>& names() const
+  {
+    return curvilinear ? curvilinear_side_names : side_names;
+  }
   bool operator==(const BoundaryOptions&) const = default;
 };
 
@@ -99,14 +78,6 @@ struct BoundaryOptions {
 
 enum class MeshShape { Rectangle, Disk, Annulus, Cylinder, SphereCap };
 enum class MeshPattern { Diagonal, Alternating, Irregular, Delaunay };
-
-/// Part of a circle about an axis, degrees.
-struct AngleOptions {
-  double from = 0.0;
-  double to = 360.0;
-
-  bool operator==(const AngleOptions&) const = default;
-};
 
 /// Part of a half-circle from pole to pole, degrees from the axis.
 struct PolarOptions {

@@ -204,6 +204,8 @@ bool Reader::open_condition(bool holds, std::string_view condition)
 
 void Reader::exactly_one_of(std::initializer_list<std::string_view> keys)
 {
+  if (!belong_here())
+    return;
   std::vector<std::string> given;
   std::vector<std::string> allowed_keys(keys.begin(), keys.end());
   for (const auto& key : allowed_keys)
@@ -218,12 +220,17 @@ void Reader::exactly_one_of(std::initializer_list<std::string_view> keys)
     issues_.add(place_of_key(given.back()), fmt::format("{}; it has {}", what, joined(given)));
 }
 
+/// Whether what is stated now is about the table as it is.
+bool Reader::belong_here() const
+{
+  return std::all_of(conditions_.begin(), conditions_.end(), [](const auto& c) { return c.holds; });
+}
+
 /// Rules are about values: they wait until each value of the table can be read.
 void Reader::rule(bool holds, std::string_view key, std::string_view text, const std::string& detail)
 {
   const Frame& frame = frames_.back();
-  const bool applies = std::all_of(conditions_.begin(), conditions_.end(), [](const auto& c) { return c.holds; });
-  if (holds || !applies || issues_.count() > frame.issues_before)
+  if (holds || !belong_here() || issues_.count() > frame.issues_before)
     return;
   const bool is_case = frame.path.empty() && key.empty();
   const auto found = locate(*frame.table, key);

@@ -51,6 +51,7 @@ class Reader : public Schema {
 
   const toml::node* find(std::string_view name);
   bool is_forbidden(std::string_view name);
+  bool belong_here() const;
   void report_missing(std::string_view name, const std::string& remedy);
   void report_unknown(std::string_view name);
   void report_wrong(std::string_view name, const std::string& text);

@@ -34,7 +34,8 @@ struct Spec {
   Range range = any_number;    ///< of a number, of each number of an array
   bool required = false;
   Scaling scaling = Scaling::None;
-  bool time_only = false;  ///< an expression of t, not of x, y, z
+  bool time_only = false;    ///< an expression of t, not of x, y, z
+  std::string_view of = "";  ///< an expression of these variables and no others: "x", "xyz", "s" (arc length); no file
 };
 
 struct TableSpec {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include "core/nearest.hpp"
 #include "config/value_text.hpp"
@@ -98,13 +99,18 @@ void ValueReader::operator()(Expression* v) const
     if (node_.is_number() && any_number.contains(*node_.value<double>()))
       read = Expression(*node_.value<double>());
     else if (const auto formula = node_.value_exact<std::string>())
-      read = Expression(Formula{*formula});
-    else if (const auto* table = node_.as_table())
+      read = Expression(Formula{*formula}, context_.spec.of == "s" ? Variables::ArcLength : Variables::PlaceAndTime);
+    else if (const auto* table = node_.as_table(); table && context_.spec.of.empty())
       read = scaled_file(*table);
     else
       refuse(v);
     if (read && context_.spec.time_only && read->depends_on_place())
       return report("may change with t, but not with x, y, z");
+    if (read && !context_.spec.of.empty())
+      for (const char variable : read->variables())
+        if (context_.spec.of.find(variable) == std::string_view::npos)
+          return report(
+              fmt::format("may change with {}, but not with {}", fmt::join(context_.spec.of, ", "), variable));
     if (read)
       *v = *read;
   } catch (const InputError& error) {

@@ -17,6 +17,8 @@ Overloaded(Functions...) -> Overloaded<Functions...>;
 
 std::string allowed_expression(const Spec& spec)
 {
+  if (!spec.of.empty())
+    return fmt::format("a number, or a formula of {}", fmt::join(spec.of, ", "));
   return fmt::format("a number, a formula of {}, or {{ file, scale }}", spec.time_only ? "t" : "x, y, z, t");
 }
 

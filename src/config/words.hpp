@@ -24,7 +24,14 @@ inline Words<TimeScheme> words(TimeScheme)
 
 inline Words<GridKind> words(GridKind)
 {
-  return {{{GridKind::Box, "box"}}, {"pipe", "aorta", "file"}};
+  return {{{GridKind::Box, "box"},
+           {GridKind::MappedBox, "mapped-box"},
+           {GridKind::Pipe, "pipe"},
+           {GridKind::BentPipe, "bent-pipe"},
+           {GridKind::Aorta, "aorta"},
+           {GridKind::Annulus, "annulus"},
+           {GridKind::Channel, "channel"},
+           {GridKind::File, "file"}}};
 }
 
 inline Words<SideType> words(SideType)

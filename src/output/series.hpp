@@ -33,8 +33,8 @@ class TimeIndex {
   SeriesMark series_;
 };
 
-/// <name>.pvd with <name>/<name>_000012.vtr: rectilinear grids with data by cell.
-/// On several ranks each writes its own piece, listed by <name>_000012.pvtr.
+/// <name>.pvd with <name>/<name>_000012.vtr: rectilinear grids with data by cell; .vts: curvilinear ones.
+/// On several ranks each writes its own piece, listed by <name>_000012.pvtr or .pvts.
 class FlowSeries {
  public:
   explicit FlowSeries(const RunFolder& folder, std::string name = "fields", const EarlierOutput* earlier = nullptr);

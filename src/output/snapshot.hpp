@@ -19,10 +19,18 @@ struct NamedField {
   std::variant<std::vector<float>, std::vector<double>> values;
 };
 
+/// Nodes of a curvilinear grid.
+struct CurvilinearPiece {
+  Index3 cells{};            ///< of the whole grid
+  std::vector<Vec3> points;  ///< corners of the cells of this rank's piece [L], i fastest
+};
+
+/// Face coordinates of a whole grid along x, y, z [L]; cells + 1 of them.
+using RectilinearNodes = std::array<std::vector<double>, 3>;
+
 /// The cells that this rank owns.
 struct FlowSnapshot {
-  std::array<std::vector<double>, 3>
-      nodes;                       ///< face coordinates of the whole grid along x, y, z [L]; cells + 1 of them
+  std::variant<RectilinearNodes, CurvilinearPiece> nodes;
   IndexBox piece;                  ///< of the cells in `fields`
   std::vector<NamedField> fields;  ///< by cell of the piece, i fastest; the same names on every rank
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "grid/axis.hpp"
+#include "grid/quality.hpp"
 #include "simulation/build.hpp"
+#include "simulation/build_nodes.hpp"
 #include "simulation/check_flow.hpp"
 #include "simulation/refusal.hpp"
 
@@ -48,19 +49,6 @@ fluid::FlowOptions flow_options(const config::Case& options)
 
 }  // namespace
 
-std::array<std::vector<double>, 3> build_coordinates(const config::GridOptions& options)
-{
-  std::array<std::vector<double>, 3> faces;
-  for (int a = 0; a < 3; ++a) {
-    const config::AxisOptions& axis = options.axes[a];
-    grid::AxisSpec spec{.from = axis.from, .to = axis.to, .cells = axis.cells, .refine = std::nullopt};
-    if (axis.refine)
-      spec.refine = grid::Refinement{axis.refine->from, axis.refine->to, axis.refine->spacing};
-    faces[a] = refusing_at(axis.mark, [&] { return grid::face_coordinates(spec, std::string(1, "xyz"[a])); });
-  }
-  return faces;
-}
-
 fluid::Boundaries build_boundaries(const config::BoundaryOptions& options)
 {
   fluid::Boundaries boundaries;
@@ -72,10 +60,28 @@ fluid::Boundaries build_boundaries(const config::BoundaryOptions& options)
   return boundaries;
 }
 
+namespace {
+
+std::unique_ptr<grid::Grid> build_curvilinear(MPI_Comm comm, const config::GridOptions& options,
+                                              const std::array<bool, 3>& periodic)
+{
+  const grid::CurvilinearNodes nodes = build_nodes(options);
+  return refusing_at(options.mark, [&] {
+    auto grid = std::make_unique<grid::Grid>(comm, nodes.cells, nodes.source, periodic);
+    grid::require_sound(grid::measure_quality(*grid));
+    grid::require_periodic_sides(*grid, nodes.source);
+    return grid;
+  });
+}
+
+}  // namespace
+
 std::unique_ptr<grid::Grid> build_grid(MPI_Comm comm, const config::Case& options)
 {
-  auto coordinates = build_coordinates(options.grid);
   const auto periodic = fluid::periodic_axes(build_boundaries(options.boundary));
+  if (is_curvilinear(options.grid.kind))
+    return build_curvilinear(comm, options.grid, periodic);
+  auto coordinates = build_coordinates(options.grid);
   return refusing_at(options.grid.mark,
                      [&] { return std::make_unique<grid::Grid>(comm, std::move(coordinates), periodic); });
 }

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "fluid/boundary.hpp"
+#include "grid/locate.hpp"
 #include "simulation/build.hpp"
 #include "simulation/refusal.hpp"
 
@@ -57,8 +58,8 @@ void check_finite(const grid::Grid& grid, const IndexBox& cells, const config::V
   if (first == none)
     return;
   const auto number = static_cast<long>(first);
-  const Vec3 x = grid.centre(static_cast<int>(number % n[0]), static_cast<int>(number / n[0] % n[1]),
-                             static_cast<int>(number / n[0] / n[1]));
+  const Vec3 x = grid.centre_of_any({static_cast<int>(number % n[0]), static_cast<int>(number / n[0] % n[1]),
+                                     static_cast<int>(number / n[0] / n[1])});
   const Vec3 u = velocity.evaluate(x, 0.0);
   fail_input(
       "{} is [{}, {}, {}] at ({:.6g}, {:.6g}, {:.6g}), t = 0; it must be a number everywhere: guard the formula there, "
@@ -85,11 +86,19 @@ void check_sides(const grid::Grid& grid, const config::Case& options)
   for (int a = 0; a < 3; ++a)
     for (int end = 0; end < 2; ++end)
       check_finite(grid, cells_beside(grid, a, end), options.boundary.sides[2 * a + end].value,
-                   fmt::format("boundary.{}.value", config::side_names[2 * a + end]));
+                   fmt::format("boundary.{}.value", options.boundary.names()[2 * a + end]));
   // A flow that grows from rest brings in nothing at t = 0.
   fluid::BoundaryConditions conditions(grid, build_boundaries(options.boundary));
   for (const double t : {0.0, options.time.step, 0.5 * options.time.end, options.time.end})
     conditions.evaluate_at(t);
+}
+
+void check_probes(const grid::Grid& grid, const config::OutputOptions& output)
+{
+  for (const config::ProbeOptions& probe : output.probes)
+    if (!probe.shell && !grid::locate(grid, probe.point))
+      fail_input("probe '{}': ({:.6g}, {:.6g}, {:.6g}) lies outside the grid", probe.name, probe.point[0],
+                 probe.point[1], probe.point[2]);
 }
 
 }  // namespace
@@ -111,6 +120,7 @@ void check_flow(const grid::Grid& grid, const config::Case& options)
 {
   check_initial_velocity(grid, options.fluid->initial);
   refusing_at(options.boundary.mark, [&] { check_sides(grid, options); });
+  check_probes(grid, options.output);
 }
 
 }  // namespace luff::simulation

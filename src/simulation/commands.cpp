@@ -15,7 +15,9 @@
 #include "output/log.hpp"
 #include "output/series.hpp"
 #include "simulation/build.hpp"
+#include "simulation/build_nodes.hpp"
 #include "simulation/check_flow.hpp"
+#include "simulation/grid_snapshot.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/mark_fields.hpp"
 #include "simulation/modes_run.hpp"
@@ -92,8 +94,10 @@ void set_threads(MPI_Comm comm, const config::Case& options, const Threads& thre
   int ranks = 1;
   MPI_Comm_size(comm, &ranks);
   double cells = 0.0;
-  if (options.fluid)
-    cells = double(options.grid.axes[0].cells) * options.grid.axes[1].cells * options.grid.axes[2].cells / ranks;
+  if (options.fluid) {
+    const Index3 n = cells_of(options.grid);
+    cells = double(n[0]) * n[1] * n[2] / ranks;
+  }
   omp_set_num_threads(std::clamp(static_cast<int>(cells / 20000.0), 1, threads.at_most));
 }
 
@@ -117,10 +121,16 @@ void picture(const output::RunFolder& folder, spdlog::logger& log, const config:
     log.warn("no pictures were made: luff plot {} says why", folder.path().string());
 }
 
-void say_groups(spdlog::logger& log, const config::Case& options, const Structure& structure)
+void say_groups(spdlog::logger& log, const config::Case& options, const Structure& structure, const grid::Grid* grid)
 {
-  for (const std::string& line : describe_groups(options, structure))
+  for (const std::string& line : describe_groups(options, structure, grid))
     log.info("{}", line);
+}
+
+const grid::Grid* grid_of(Simulation& simulation)
+{
+  const fluid::FlowSolver* flow = simulation.surroundings().flow();
+  return flow != nullptr ? &flow->grid() : nullptr;
 }
 
 std::shared_ptr<spdlog::logger> start_log(const output::RunFolder& folder, const config::Case& options)
@@ -146,19 +156,6 @@ void prepare_folder(const output::RunFolder& folder, const Clock& clock)
 {
   folder.forget_stop();
   output::drop_checkpoints_after(folder, clock.steps());
-}
-
-output::FlowSnapshot grid_snapshot(const grid::Grid& grid)
-{
-  output::FlowSnapshot snapshot;
-  for (int a = 0; a < 3; ++a)
-    snapshot.nodes[a] = grid.faces(a);
-  snapshot.piece = grid.owned();
-  std::vector<float> volume;
-  for_each_cell_in_order(grid.owned(),
-                         [&](int i, int j, int k) { volume.push_back(static_cast<float>(grid.volume(i, j, k))); });
-  snapshot.fields.push_back({"volume", 1, std::move(volume)});
-  return snapshot;
 }
 
 output::SurfaceSnapshot surface_snapshot(const Structure& structure, const SheetRange& sheet)
@@ -188,7 +185,7 @@ void run_case(MPI_Comm comm, const std::filesystem::path& file, const config::Ov
     const std::vector<LoadedShell> shells = build_still(options);
     const output::RunFolder folder = make_folder(comm, file, run);
     const auto log = start_log(folder, options);
-    say_groups(*log, options, *structure);
+    say_groups(*log, options, *structure, /*grid=*/nullptr);
     if (options.structure.analysis == config::Analysis::Modes)
       run_modes(folder, log, options, shells);
     else
@@ -204,7 +201,7 @@ void run_case(MPI_Comm comm, const std::filesystem::path& file, const config::Ov
     if (resumption)
       prepare_folder(folder, simulation->clock());
     const auto log = start_log(folder, options);
-    say_groups(*log, options, simulation->structure());
+    say_groups(*log, options, simulation->structure(), grid_of(*simulation));
     if (resumption)
       say_resumption(*log, simulation->clock(), *resumption);
     march(folder, log, options, *simulation, anywhere(comm, run.interrupted), resumption);
@@ -217,16 +214,18 @@ void check_case(MPI_Comm comm, const std::filesystem::path& file, const config::
   const config::Case options = config::load_case(file, overrides);
   const auto structure = build_structure(options);
   check_sheets_inside(options, *structure);
-  if (options.fluid)
-    check_flow(*build_grid(comm, options), options);
+  const auto grid = options.fluid ? build_grid(comm, options) : nullptr;
+  if (grid)
+    check_flow(*grid, options);
   if (!marches(options))
     (void)build_still(options);
+  const std::vector<std::string> groups = describe_groups(options, *structure, grid.get());
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   if (rank != 0)
     return;
   std::cout << file.string() << ": " << options.title << '\n';
-  for (const std::string& line : describe_groups(options, *structure))
+  for (const std::string& line : groups)
     std::cout << "  " << line << '\n';
   std::cout << "the case is valid\n";
 }
@@ -240,7 +239,7 @@ void write_meshes(MPI_Comm comm, const std::filesystem::path& file, const config
   const auto grid = options.fluid ? build_grid(comm, options) : nullptr;
   const output::RunFolder folder = output::RunFolder::at(comm, out);
   if (grid)
-    output::FlowSeries(folder, "grid").write(0.0, grid_snapshot(*grid));
+    output::FlowSeries(folder, "grid").write(0.0, quality_snapshot(*grid));
   for (const SheetRange& sheet : structure->sheets())
     output::SurfaceSeries(folder, sheet.name).write(0.0, surface_snapshot(*structure, sheet));
   if (folder.writes())

@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/flow_fields.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <Eigen/LU>
 
 #include "parallel/vector_field.hpp"
+#include "simulation/grid_snapshot.hpp"
 
 namespace luff::simulation {
 
 namespace {
 
-/// (grad u)_ij = du_i/dx_j at the centre of a cell.
+/// (grad u)_ij = du_i/dx_j at the centre of a cell, from the differences between its neighbours along the three index
+/// directions a:  grad u . (x(+a) - x(-a)) = u(+a) - u(-a).  Exact where u is linear, on grids of any kind.
 Mat3 velocity_gradient(const grid::Grid& grid, const View3<const double>& u, const Index3& c)
 {
-  Mat3 gradient;
-  for (int j = 0; j < 3; ++j) {
-    const double span = grid.centre(j, c[j] + 1) - grid.centre(j, c[j] - 1);
-    gradient.col(j) = (at(u, stepped(c, j, 1)) - at(u, stepped(c, j, -1))) / span;
+  Mat3 du;
+  Mat3 dx;
+  for (int a = 0; a < 3; ++a) {
+    const Index3 high = stepped(c, a, 1);
+    const Index3 low = stepped(c, a, -1);
+    du.col(a) = at(u, high) - at(u, low);
+    dx.col(a) = grid.centre(high) - grid.centre(low);
   }
-  return gradient;
+  return du * dx.inverse();
 }
 
 Vec3 vorticity(const Mat3& g)
@@ -32,23 +36,6 @@ double q_criterion(const Mat3& g)
   return -0.5 * (g * g).trace();
 }
 
-/// Values of `components` numbers per owned cell, i fastest.
-template <class Value>
-output::NamedField cell_field(const std::string& name, int components, const IndexBox& box, Value value)
-{
-  std::vector<float> values;
-  values.reserve(box.volume() * components);
-  for_each_cell_in_order(box, [&](int i, int j, int k) {
-    const auto v = value(Index3{i, j, k});
-    if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>)
-      values.push_back(static_cast<float>(v));
-    else
-      for (int d = 0; d < 3; ++d)
-        values.push_back(static_cast<float>(v[d]));
-  });
-  return {name, components, std::move(values)};
-}
-
 }  // namespace
 
 output::FlowSnapshot flow_snapshot(const fluid::FlowSolver& flow, std::span<const config::FlowField> what)
@@ -56,10 +43,7 @@ output::FlowSnapshot flow_snapshot(const fluid::FlowSolver& flow, std::span<cons
   const grid::Grid& grid = flow.grid();
   const auto u = views(flow.state().u);
   const auto p = flow.state().p.view();
-  output::FlowSnapshot snapshot;
-  for (int a = 0; a < 3; ++a)
-    snapshot.nodes[a] = grid.faces(a);
-  snapshot.piece = grid.owned();
+  output::FlowSnapshot snapshot = grid_snapshot(grid);
   for (const config::FlowField field : what)
     switch (field) {
       case config::FlowField::Velocity:
@@ -84,30 +68,18 @@ output::FlowSnapshot flow_snapshot(const fluid::FlowSolver& flow, std::span<cons
   return snapshot;
 }
 
-PointSample sample(const fluid::FlowSolver& flow, const Vec3& x)
+PointSample sample(const fluid::FlowSolver& flow, const grid::Location& location)
 {
   const grid::Grid& grid = flow.grid();
-  Index3 cell{};  // that holds the point
-  Index3 base{};  // low corner of the box of centres around it
-  Vec3 weight;
-  for (int a = 0; a < 3; ++a) {
-    const auto& faces = grid.faces(a);
-    const auto above = std::upper_bound(faces.begin(), faces.end(), x[a]) - faces.begin();
-    cell[a] = std::clamp(static_cast<int>(above) - 1, 0, grid.cells()[a] - 1);
-    base[a] = x[a] < grid.centre(a, cell[a]) ? cell[a] - 1 : cell[a];
-    if (!grid.ranks().periodic(a))  // between a wall and the first centre: continued from within
-      base[a] = std::clamp(base[a], 0, std::max(0, grid.cells()[a] - 2));
-    weight[a] = (x[a] - grid.centre(a, base[a])) / (grid.centre(a, base[a] + 1) - grid.centre(a, base[a]));
-  }
   std::array<double, 4> sum{};
-  if (grid.owned().contains(cell))
+  if (location.mine)
     for (int corner = 0; corner < 8; ++corner) {
-      Index3 c = base;
+      Index3 c = location.base;
       double w = 1.0;
       for (int a = 0; a < 3; ++a) {
         const int up = corner >> a & 1;
         c[a] += up;
-        w *= up == 1 ? weight[a] : 1.0 - weight[a];
+        w *= up == 1 ? location.weight[a] : 1.0 - location.weight[a];
       }
       const Vec3 u = at(views(flow.state().u), c);
       for (int d = 0; d < 3; ++d)

@@ -6,20 +6,21 @@
 
 #include "config/options.hpp"
 #include "fluid/flow_solver.hpp"
+#include "grid/locate.hpp"
 #include "output/snapshot.hpp"
 
 namespace luff::simulation {
 
 /// Velocity, pressure (physical), vorticity and Q = (|Omega|^2 - |S|^2)/2 in the owned cells; gradients by central
-/// differences.  Halos must be filled.
+/// differences along index directions.  Halos must be filled.
 [[nodiscard]] output::FlowSnapshot flow_snapshot(const fluid::FlowSolver& flow,
                                                  std::span<const config::FlowField> what);
 
-/// Velocity and physical pressure at a point of the domain, trilinear between cell centres.  Collective.
+/// Velocity and physical pressure at a place of the grid (grid::locate), trilinear between cell centres.  Collective.
 struct PointSample {
   Vec3 velocity = Vec3::Zero();
   double pressure = 0.0;
 };
-[[nodiscard]] PointSample sample(const fluid::FlowSolver& flow, const Vec3& x);
+[[nodiscard]] PointSample sample(const fluid::FlowSolver& flow, const grid::Location& location);
 
 }  // namespace luff::simulation

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "grid/quality.hpp"
 #include "shell/section.hpp"
 #include "simulation/build.hpp"
 #include "simulation/build_material.hpp"
@@ -16,16 +18,21 @@ namespace luff::simulation {
 
 namespace {
 
-/// Fastest of the initial velocity and of what the sides prescribe, at t = 0 in the middle of the domain.
-double reference_speed(const config::Case& options)
+/// Fastest of the initial velocity in the middle of the domain and of what the sides prescribe in their middle, at t =
+/// 0.
+double reference_speed(const config::Case& options, const grid::Grid& grid)
 {
-  Vec3 middle;
+  const Index3 middle{grid.cells()[0] / 2, grid.cells()[1] / 2, grid.cells()[2] / 2};
+  double speed = options.fluid->initial.velocity.evaluate(grid.centre_of_any(middle), 0.0).norm();
   for (int a = 0; a < 3; ++a)
-    middle[a] = 0.5 * (options.grid.axes[a].from + options.grid.axes[a].to);
-  double speed = options.fluid->initial.velocity.evaluate(middle, 0.0).norm();
-  for (const config::SideOptions& side : options.boundary.sides)
-    if (side.type == config::SideType::Velocity || side.type == config::SideType::Wall)
-      speed = std::max(speed, side.value.evaluate(middle, 0.0).norm());
+    for (int end = 0; end < 2; ++end) {
+      const config::SideOptions& side = options.boundary.sides[2 * a + end];
+      Index3 beside = middle;
+      beside[a] = end == 0 ? 0 : grid.cells()[a] - 1;
+      const Vec3 x = grid.centre_of_any(beside);
+      if (side.type == config::SideType::Velocity || side.type == config::SideType::Wall)
+        speed = std::max(speed, side.value.evaluate(x, 0.0).norm());
+    }
   return speed;
 }
 
@@ -41,35 +48,49 @@ double sheet_length(const Structure& structure)
 }
 
 struct Spacing {
-  Vec3 finest;
+  Vec3 finest;  ///< smallest width of a cell along each direction: volume over area
   double cells = 1.0;
 };
 
-Spacing spacing_of(const std::array<std::vector<double>, 3>& faces)
+Spacing spacing_of(const grid::Grid& grid)
 {
   Spacing spacing;
   for (int a = 0; a < 3; ++a) {
-    double finest = faces[a].back() - faces[a].front();
-    for (std::size_t i = 1; i < faces[a].size(); ++i)
-      finest = std::min(finest, faces[a][i] - faces[a][i - 1]);
-    spacing.finest[a] = finest;
-    spacing.cells *= static_cast<double>(faces[a].size() - 1);
+    double finest = std::numeric_limits<double>::max();
+    for_each_cell_in_order(grid.owned(), [&](int i, int j, int k) {
+      const Index3 next = stepped({i, j, k}, a, 1);
+      const double area = 0.5 * (grid.area(a, i, j, k) + grid.area(a, next[0], next[1], next[2]));
+      finest = std::min(finest, grid.volume(i, j, k) / area);
+    });
+    spacing.finest[a] = -grid.ranks().max(-finest);
+    spacing.cells *= grid.cells()[a];
   }
   return spacing;
 }
 
-void describe_flow(const config::Case& options, const Structure& structure, std::vector<std::string>& lines)
+void describe_quality(const grid::Grid& grid, std::vector<std::string>& lines)
 {
-  const Spacing spacing = spacing_of(build_coordinates(options.grid));
-  const double speed = reference_speed(options);
+  const grid::GridQuality quality = grid::measure_quality(grid);
+  lines.push_back(fmt::format("cosine between faces at most {:.3f}, aspect ratio {:.1f}, growth of volumes {:.2f}",
+                              quality.skew.value, quality.aspect.value, quality.growth.value));
+  for (const std::string& warning : grid::quality_warnings(quality))
+    lines.push_back("WARNING: " + warning);
+}
+
+void describe_flow(const config::Case& options, const Structure& structure, const grid::Grid& grid, double speed,
+                   std::vector<std::string>& lines)
+{
+  const Spacing spacing = spacing_of(grid);
   const double length = sheet_length(structure);
   const double viscosity = options.fluid->viscosity / options.fluid->density;
   const Vec3& h = spacing.finest;
   lines.push_back(fmt::format("grid {} x {} x {} = {:.0f} cells, finest spacing {:.4g} x {:.4g} x {:.4g}",
-                              options.grid.axes[0].cells, options.grid.axes[1].cells, options.grid.axes[2].cells,
-                              spacing.cells, h[0], h[1], h[2]));
-  // 24 doubles per cell for the flow, as much again at most for the pressure's multigrid.
-  lines.push_back(fmt::format("memory about {:.0f} MB for the flow", spacing.cells * 400.0 / 1e6));
+                              grid.cells()[0], grid.cells()[1], grid.cells()[2], spacing.cells, h[0], h[1], h[2]));
+  if (grid.kind() == grid::Kind::Curvilinear)
+    describe_quality(grid, lines);
+  // 24 doubles per cell for the flow, as much again at most for the pressure's multigrid; 19 for curvilinear metrics.
+  const double bytes = grid.kind() == grid::Kind::Curvilinear ? 550.0 : 400.0;
+  lines.push_back(fmt::format("memory about {:.0f} MB for the flow", spacing.cells * bytes / 1e6));
   if (length > 0.0 && speed > 0.0) {
     if (viscosity > 0.0)
       lines.push_back(fmt::format("Reynolds number U L/nu = {:.4g}  (U = {:.4g}, L = {:.4g}, nu = {:.4g})",
@@ -108,7 +129,8 @@ std::string shown(const Eigen::Vector2d& stiffness)
   return fmt::format("{:.4g} along the fibres, {:.4g} across", stiffness[0], stiffness[1]);
 }
 
-void describe_shell(const config::Case& options, const config::ShellOptions& shell, double length,
+/// `speed`: of the flow, where there is one.
+void describe_shell(const config::Case& options, const config::ShellOptions& shell, double length, double speed,
                     std::vector<std::string>& lines)
 {
   const double h = shell.thickness;
@@ -123,7 +145,6 @@ void describe_shell(const config::Case& options, const config::ShellOptions& she
                                 shown(stiffness), shell.density * h));
     return;
   }
-  const double speed = reference_speed(options);
   const double rho = options.fluid->density;
   const double mass_ratio = shell.density * h / (rho * length);
   lines.push_back(fmt::format("shell '{}': mass ratio rho_s h/(rho_f L) = {:.4g}", shell.name, mass_ratio));
@@ -162,13 +183,15 @@ void describe_patches(const shell::Shell& shell, std::vector<std::string>& lines
 
 }  // namespace
 
-std::vector<std::string> describe_groups(const config::Case& options, const Structure& structure)
+std::vector<std::string> describe_groups(const config::Case& options, const Structure& structure,
+                                         const grid::Grid* grid)
 {
   std::vector<std::string> lines;
-  if (options.fluid)
-    describe_flow(options, structure, lines);
+  const double speed = grid != nullptr ? reference_speed(options, *grid) : 0.0;
+  if (grid != nullptr)
+    describe_flow(options, structure, *grid, speed, lines);
   for (const config::ShellOptions& shell : options.shells)
-    describe_shell(options, shell, sheet_length(structure), lines);
+    describe_shell(options, shell, sheet_length(structure), speed, lines);
   for (const SheetRange& sheet : structure.sheets())
     describe_mesh(sheet, lines);
   if (structure.shells().shell)

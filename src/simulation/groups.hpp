@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "config/case.hpp"
+#include "grid/grid.hpp"
 #include "simulation/structure.hpp"
 
 namespace luff::simulation {
@@ -13,6 +14,9 @@ namespace luff::simulation {
 /// Lines "name = value" for a person: Re, mass ratio, bending stiffness, cells per length, CFL and diffusion numbers,
 /// memory, and warnings.  Length: the longest side of the first sheet's bounding box; speed: the fastest prescribed or
 /// initial velocity.
-[[nodiscard]] std::vector<std::string> describe_groups(const config::Case& options, const Structure& structure);
+///
+/// `grid`: null without a fluid.  Collective.
+[[nodiscard]] std::vector<std::string> describe_groups(const config::Case& options, const Structure& structure,
+                                                       const grid::Grid* grid);
 
 }  // namespace luff::simulation

@@ -154,6 +154,8 @@ void Recorder::open_probe(const config::ProbeOptions& options, const output::Ear
     add("displacement", "length");
     add("velocity", "velocity");
   } else {
+    probe.location = grid::locate(simulation_.surroundings().flow()->grid(), options.point);
+    ensure(probe.location.has_value(), "probes in the flow were found in the grid when the case was checked");
     add("velocity", "velocity");
     columns.push_back({"pressure", "pressure"});
   }
@@ -310,7 +312,7 @@ void Recorder::write_probes(double t, double dt)
       append(row, value);
       append(row, velocities[probe.vertex]);
     } else {
-      const PointSample here = sample(*simulation_.surroundings().flow(), probe.point);
+      const PointSample here = sample(*simulation_.surroundings().flow(), *probe.location);
       value = here.velocity;
       append(row, value);
       row.push_back(here.pressure);

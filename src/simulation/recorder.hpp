@@ -12,6 +12,7 @@
 #include <spdlog/logger.h>
 
 #include "config/case.hpp"
+#include "grid/locate.hpp"
 #include "output/csv.hpp"
 #include "output/oscillation.hpp"
 #include "output/progress.hpp"
@@ -45,6 +46,7 @@ class Recorder {
     std::string name;
     int vertex = -1;  ///< of all sheets; -1: a point in the flow
     Vec3 point = Vec3::Zero();
+    std::optional<grid::Location> location;  ///< of a point in the flow
     std::vector<double> t;
     std::array<std::vector<double>, 3> value;  ///< displacement or velocity
     std::unique_ptr<output::CsvWriter> csv;

@@ -263,8 +263,6 @@ const BadInput rules[] = {
 const BadInput not_yet[] = {
     {"ATimeScheme", "step = 0.01", "step = 0.01\nscheme = \"sbdf2\"",
      "case.toml:5: time.scheme = \"sbdf2\" is known but not available in this version; it must be \"rk3\""},
-    {"AGrid", "[grid]", "[grid]\nkind = \"pipe\"",
-     "case.toml:10: grid.kind = \"pipe\" is known but not available in this version; it must be \"box\""},
     {"AMotion", "type = \"prescribed\", translation = [\"cos(t)\", 0, 0]", "type = \"free\"",
      "case.toml:35: body.motion.type = \"free\" is known but not available in this version; it must be \"fixed\" or "
      "\"prescribed\""},

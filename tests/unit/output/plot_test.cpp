@@ -108,6 +108,16 @@ TEST_F(Plot, AFlowAloneGivesVorticity)
   EXPECT_EQ(pictures(), (Names{"vorticity.png", "vorticity-instants.png"}));
 }
 
+TEST_F(Plot, AFlowOnACurvilinearGridGivesVorticity)
+{
+  const Index3 cells{30, 20, 4};
+  FlowSeries series(folder);
+  for (int n = 0; n < 2; ++n)
+    series.write(n, sample_curvilinear_flow(cells, {{0, 0, 0}, cells}, n));
+  ASSERT_EQ(plot(), 0) << said;
+  EXPECT_EQ(pictures(), (Names{"vorticity.png", "vorticity-instants.png"}));
+}
+
 TEST_F(Plot, ARunCutOffInTheMiddleOfALineIsStillDrawn)
 {
   write_tables();

@@ -28,15 +28,16 @@ inline double centre(const std::vector<double>& nodes, int i)
 inline FlowSnapshot sample_flow(const Index3& cells, const IndexBox& piece, double t = 0)
 {
   FlowSnapshot flow;
-  flow.nodes = {stretched_nodes(-2, 4, cells[0]), stretched_nodes(-2, 2, cells[1]),
-                stretched_nodes(-0.5, 0.5, cells[2])};
+  const RectilinearNodes nodes{stretched_nodes(-2, 4, cells[0]), stretched_nodes(-2, 2, cells[1]),
+                               stretched_nodes(-0.5, 0.5, cells[2])};
+  flow.nodes = nodes;
   flow.piece = piece;
   std::vector<float> velocity, vorticity;
   std::vector<double> pressure;
   for (int k = piece.lo[2]; k < piece.hi[2]; ++k)
     for (int j = piece.lo[1]; j < piece.hi[1]; ++j)
       for (int i = piece.lo[0]; i < piece.hi[0]; ++i) {
-        const double x = centre(flow.nodes[0], i), y = centre(flow.nodes[1], j), z = centre(flow.nodes[2], k);
+        const double x = centre(nodes[0], i), y = centre(nodes[1], j), z = centre(nodes[2], k);
         for (double u : {x, y, z})
           velocity.push_back(static_cast<float>(u));
         pressure.push_back(100 * x + 10 * y + z);
@@ -46,6 +47,20 @@ inline FlowSnapshot sample_flow(const Index3& cells, const IndexBox& piece, doub
           vorticity.push_back(static_cast<float>(w));
       }
   flow.fields = {{"velocity", 3, velocity}, {"pressure", 1, pressure}, {"vorticity", 3, vorticity}};
+  return flow;
+}
+
+/// The same numbers on cells whose nodes are put elsewhere.
+inline FlowSnapshot sample_curvilinear_flow(const Index3& cells, const IndexBox& piece, double t = 0)
+{
+  FlowSnapshot flow = sample_flow(cells, piece, t);
+  const auto nodes = std::get<RectilinearNodes>(flow.nodes);
+  CurvilinearPiece points{.cells = cells, .points = {}};
+  for (int k = piece.lo[2]; k <= piece.hi[2]; ++k)
+    for (int j = piece.lo[1]; j <= piece.hi[1]; ++j)
+      for (int i = piece.lo[0]; i <= piece.hi[0]; ++i)
+        points.points.emplace_back(nodes[0][i] + 0.2 * nodes[1][j], nodes[1][j], nodes[2][k] + 0.1 * nodes[0][i]);
+  flow.nodes = points;
   return flow;
 }
 

@@ -9,9 +9,12 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkRectilinearGrid.h>
+#include <vtkStructuredGrid.h>
 #include <vtkXMLPRectilinearGridReader.h>
+#include <vtkXMLPStructuredGridReader.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLRectilinearGridReader.h>
+#include <vtkXMLStructuredGridReader.h>
 
 #include "core/error.hpp"
 #include "sample_snapshots.hpp"
@@ -49,12 +52,12 @@ class Series : public testing::Test {
 
 void expect_sample(vtkRectilinearGrid& grid, const IndexBox& piece)
 {
-  const FlowSnapshot expected = sample_flow(cells, piece);
+  const auto nodes = std::get<RectilinearNodes>(sample_flow(cells, piece).nodes);
   ASSERT_EQ(grid.GetNumberOfCells(), piece.volume());
   for (int i = piece.lo[2]; i <= piece.hi[2]; ++i)
-    EXPECT_EQ(grid.GetZCoordinates()->GetTuple1(i - piece.lo[2]), expected.nodes[2][i]);
+    EXPECT_EQ(grid.GetZCoordinates()->GetTuple1(i - piece.lo[2]), nodes[2][i]);
   for (int i = 0; i <= cells[0]; ++i)
-    EXPECT_EQ(grid.GetXCoordinates()->GetTuple1(i), expected.nodes[0][i]);
+    EXPECT_EQ(grid.GetXCoordinates()->GetTuple1(i), nodes[0][i]);
   auto* velocity = grid.GetCellData()->GetArray("velocity");
   auto* pressure = grid.GetCellData()->GetArray("pressure");
   ASSERT_TRUE(velocity && pressure);
@@ -91,6 +94,31 @@ TEST_F(Series, ThePiecesReadTogetherAreTheWholeFlow)
   reader->SetFileName(folder.file(flow_file(0)).c_str());
   reader->Update();
   expect_sample(*reader->GetOutput(), {{0, 0, 0}, cells});
+}
+
+TEST_F(Series, ThePiecesOfACurvilinearFlowAreTheWholeAtItsPlaces)
+{
+  FlowSeries(folder).write(0, sample_curvilinear_flow(cells, piece_of(rank, ranks)));
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (rank != 0)
+    return;
+  vtkNew<vtkXMLStructuredGridReader> alone;
+  vtkNew<vtkXMLPStructuredGridReader> together;
+  vtkXMLReader& reader = ranks == 1 ? static_cast<vtkXMLReader&>(*alone) : *together;
+  reader.SetFileName(folder.file(ranks == 1 ? "fields/fields_000000.vts" : "fields/fields_000000.pvts").c_str());
+  reader.Update();
+  auto& grid = *vtkStructuredGrid::SafeDownCast(reader.GetOutputAsDataSet());
+  const IndexBox whole{{0, 0, 0}, cells};
+  const FlowSnapshot expected = sample_curvilinear_flow(cells, whole);
+  ASSERT_EQ(grid.GetNumberOfCells(), whole.volume());
+  const auto& points = std::get<CurvilinearPiece>(expected.nodes).points;
+  ASSERT_EQ(grid.GetNumberOfPoints(), std::ssize(points));
+  for (vtkIdType n = 0; n < grid.GetNumberOfPoints(); ++n)
+    EXPECT_EQ(Vec3(grid.GetPoint(n)), points[n]);
+  const auto& velocity = std::get<std::vector<float>>(expected.fields[0].values);
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c)
+    for (int d = 0; d < 3; ++d)
+      EXPECT_EQ(grid.GetCellData()->GetArray("velocity")->GetComponent(c, d), velocity[3 * c + d]);
 }
 
 TEST_F(Series, TheIndexListsEveryInstantWrittenAndIsWholeAfterEach)

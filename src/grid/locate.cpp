@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "grid/locate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+namespace luff::grid {
+
+namespace {
+
+/// Points on the faces of cells are found in either; on sides, in spite of rounding.
+constexpr double tolerance = 1e-9;
+
+using Corners = std::array<Vec3, 8>;
+
+/// Weight of a corner, and its derivatives.
+double weight_of(int corner, const Vec3& s)
+{
+  double w = 1.0;
+  for (int a = 0; a < 3; ++a)
+    w *= (corner >> a & 1) == 1 ? s[a] : 1.0 - s[a];
+  return w;
+}
+
+Vec3 weight_slope(int corner, const Vec3& s)
+{
+  Vec3 slope = Vec3::Ones();
+  for (int a = 0; a < 3; ++a)
+    for (int d = 0; d < 3; ++d)
+      slope[d] *= (corner >> a & 1) == 1 ? (a == d ? 1.0 : s[a]) : (a == d ? -1.0 : 1.0 - s[a]);
+  return slope;
+}
+
+/// s with sum_c w_c(s) x_c = x, by Newton's method from the middle; none where it does not converge.
+std::optional<Vec3> invert_trilinear(const Corners& corners, const Vec3& x)
+{
+  constexpr int most_steps = 30;
+  Vec3 s = Vec3::Constant(0.5);
+  for (int step = 0; step < most_steps; ++step) {
+    Vec3 residual = x;
+    Mat3 J = Mat3::Zero();
+    for (int c = 0; c < 8; ++c) {
+      residual -= weight_of(c, s) * corners[c];
+      J += corners[c] * weight_slope(c, s).transpose();
+    }
+    const Vec3 change = J.inverse() * residual;
+    if (!change.allFinite())
+      return std::nullopt;
+    s += change;
+    if (change.cwiseAbs().maxCoeff() < 1e-13)
+      return s;
+  }
+  return std::nullopt;
+}
+
+/// Corner c of a box of points that p gives.
+template <class Point>
+Corners corners_from(const Index3& low, Point p)
+{
+  Corners corners;
+  for (int c = 0; c < 8; ++c)
+    corners[c] = p(low[0] + (c & 1), low[1] + (c >> 1 & 1), low[2] + (c >> 2));
+  return corners;
+}
+
+/// Keeps the eight centres among the cells of the domain.
+void clamp_base(const Grid& grid, Index3& base)
+{
+  for (int a = 0; a < 3; ++a)
+    if (!grid.ranks().periodic(a))
+      base[a] = std::clamp(base[a], 0, std::max(0, grid.cells()[a] - 2));
+}
+
+// ---- boxes ------------------------------------------------------------------------------------------------------
+
+std::optional<Location> locate_in_box(const Grid& grid, const Vec3& x)
+{
+  Index3 cell{};
+  Location location;
+  for (int a = 0; a < 3; ++a) {
+    const auto& faces = grid.faces(a);
+    const double rounding = tolerance * (faces.back() - faces.front());
+    if (!(x[a] >= faces.front() - rounding && x[a] <= faces.back() + rounding))
+      return std::nullopt;
+    const auto above = std::upper_bound(faces.begin(), faces.end(), x[a]) - faces.begin();
+    cell[a] = std::clamp(static_cast<int>(above) - 1, 0, grid.cells()[a] - 1);
+    location.base[a] = x[a] < grid.centre(a, cell[a]) ? cell[a] - 1 : cell[a];
+  }
+  clamp_base(grid, location.base);
+  for (int a = 0; a < 3; ++a) {
+    const double low = grid.centre(a, location.base[a]);
+    location.weight[a] = (x[a] - low) / (grid.centre(a, location.base[a] + 1) - low);
+  }
+  location.mine = grid.owned().contains(cell);
+  return location;
+}
+
+// ---- curvilinear grids ------------------------------------------------------------------------------------------
+
+Corners nodes_of(const Curvilinear& m, const Index3& c)
+{
+  return corners_from(
+      c, [&](int i, int j, int k) { return Vec3(m.node[0](i, j, k), m.node[1](i, j, k), m.node[2](i, j, k)); });
+}
+
+/// Whether a cell may hold the point: it lies in the box of the cell's nodes, which is a little too large for faces
+/// that are curved.
+bool is_near(const Corners& nodes, const Vec3& x)
+{
+  Vec3 low = nodes[0];
+  Vec3 high = nodes[0];
+  for (const Vec3& node : nodes) {
+    low = low.cwiseMin(node);
+    high = high.cwiseMax(node);
+  }
+  const double rounding = tolerance * (high - low).norm();
+  return ((x - low).array() >= -rounding).all() && ((high - x).array() >= -rounding).all();
+}
+
+struct Held {
+  Index3 cell;
+  Vec3 s;  ///< in the cell, 0 to 1
+};
+
+std::optional<Held> cell_that_holds(const Grid& grid, const Curvilinear& m, const Vec3& x)
+{
+  std::optional<Held> held;
+  for_each_cell_in_order(grid.owned(), [&](int i, int j, int k) {
+    const Corners nodes = nodes_of(m, {i, j, k});
+    if (held || !is_near(nodes, x))
+      return;
+    const auto s = invert_trilinear(nodes, x);
+    if (s && (s->array() >= -tolerance).all() && (s->array() <= 1.0 + tolerance).all())
+      held = Held{{i, j, k}, *s};
+  });
+  return held;
+}
+
+/// The eight centres around the point; those first tried may be off by one where cells are skewed.
+Location among_centres(const Grid& grid, const Held& held, const Vec3& x)
+{
+  Location location;
+  for (int a = 0; a < 3; ++a)
+    location.base[a] = held.s[a] < 0.5 ? held.cell[a] - 1 : held.cell[a];
+  clamp_base(grid, location.base);
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    const Corners centres = corners_from(location.base, [&](int i, int j, int k) { return grid.centre(i, j, k); });
+    const auto s = invert_trilinear(centres, x);
+    if (!s)
+      break;
+    location.weight = *s;
+    Index3 next = location.base;
+    for (int a = 0; a < 3; ++a) {
+      next[a] += static_cast<int>(std::floor(std::clamp((*s)[a], -0.5, 1.5)));
+      next[a] = std::clamp(next[a], held.cell[a] - 1, held.cell[a]);
+    }
+    clamp_base(grid, next);
+    if (next == location.base)
+      break;
+    location.base = next;
+  }
+  location.mine = true;
+  return location;
+}
+
+std::optional<Location> locate_in_curvilinear(const Grid& grid, const Curvilinear& m, const Vec3& x)
+{
+  const auto held = cell_that_holds(grid, m, x);
+  const int nobody = grid.ranks().size();
+  int owner = held ? grid.ranks().rank() : nobody;
+  MPI_Allreduce(MPI_IN_PLACE, &owner, 1, MPI_INT, MPI_MIN, grid.ranks().comm());
+  if (owner == nobody)
+    return std::nullopt;
+  return owner == grid.ranks().rank() ? among_centres(grid, *held, x) : Location{};
+}
+
+}  // namespace
+
+std::optional<Location> locate(const Grid& grid, const Vec3& x)
+{
+  return grid.visit([&]<class Metric>(const Metric& m) -> std::optional<Location> {
+    if constexpr (is_curvilinear<Metric>)
+      return locate_in_curvilinear(grid, m, x);
+    else
+      return locate_in_box(grid, x);
+  });
+}
+
+}  // namespace luff::grid

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where in a grid a point lies.
+#pragma once
+
+#include <optional>
+
+#include "grid/grid.hpp"
+
+namespace luff::grid {
+
+/// A point among the centres of cells: trilinear between the eight from `base` to `base` + 1,
+///
+///   x = sum over corners of prod_a (weight_a or 1 - weight_a) centre(base + corner).
+///
+/// Between the centres of the outermost cells and a side that is not periodic, weights lie outside [0, 1]: what is
+/// interpolated is continued from within.
+struct Location {
+  bool mine = false;  ///< whether this rank owns the cell that holds the point; only there is the rest of use
+  Index3 base{};      ///< the eight are owned or one layer from what is
+  Vec3 weight = Vec3::Zero();
+};
+
+/// The location of a point; the same rank's whenever asked.  None, on every rank, where it lies outside the grid.
+/// Collective.
+[[nodiscard]] std::optional<Location> locate(const Grid& grid, const Vec3& x);
+
+}  // namespace luff::grid

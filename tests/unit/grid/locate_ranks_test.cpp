@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points are found in grids of any kind, by one rank, and what is linear in space is interpolated exactly there.
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "grid/generators/pipe.hpp"
+#include "grid/locate.hpp"
+#include "support/curvilinear.hpp"
+
+namespace luff::grid {
+namespace {
+
+Vec3 interpolated_place(const Grid& grid, const Location& location)
+{
+  Vec3 x = Vec3::Zero();
+  for (int c = 0; c < 8; ++c) {
+    double w = 1.0;
+    for (int a = 0; a < 3; ++a)
+      w *= (c >> a & 1) == 1 ? location.weight[a] : 1.0 - location.weight[a];
+    x += w * grid.centre(location.base[0] + (c & 1), location.base[1] + (c >> 1 & 1), location.base[2] + (c >> 2));
+  }
+  return x;
+}
+
+/// The point is found by one rank, from whose weights its place comes back.
+void expect_found(const Grid& grid, const Vec3& x)
+{
+  const auto location = locate(grid, x);
+  ASSERT_TRUE(location.has_value()) << x.transpose();
+  EXPECT_EQ(grid.ranks().sum(location->mine ? 1.0 : 0.0), 1.0) << x.transpose();
+  if (location->mine) {
+    EXPECT_LT((interpolated_place(grid, *location) - x).norm(), 1e-11) << x.transpose();
+  }
+}
+
+TEST(Locate, FindsPointsAnywhereInASkewedGrid)
+{
+  const Index3 cells{9, 8, 10};
+  const Grid grid(MPI_COMM_WORLD, cells, test::mapped_nodes(cells, test::Waved{.amplitude = 0.08}), {});
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int n = 0; n < 200; ++n) {
+    const Vec3 s(share(engine), share(engine), share(engine));
+    // A place in the trilinear cell, not of the map, whose sides are curved.
+    const Vec3 low = (s.array() * Eigen::Array3d(9, 8, 10)).floor().min(Eigen::Array3d(8, 7, 9));
+    Vec3 x = Vec3::Zero();
+    for (int c = 0; c < 8; ++c) {
+      Vec3 node;
+      double w = 1.0;
+      for (int a = 0; a < 3; ++a) {
+        const double t = s[a] * cells[a] - low[a];
+        node[a] = (low[a] + (c >> a & 1)) / cells[a];
+        w *= (c >> a & 1) == 1 ? t : 1.0 - t;
+      }
+      x += w * test::Waved{.amplitude = 0.08}(node);
+    }
+    expect_found(grid, x);
+  }
+}
+
+TEST(Locate, FindsPointsOnTheWallsAndCornersOfABox)
+{
+  const Grid grid(MPI_COMM_WORLD,
+                  {std::vector<double>{0.0, 0.5, 1.2, 2.0}, {0.0, 1.0, 2.5, 4.0, 5.0}, {-1.0, 0.0, 0.5, 1.0, 2.0}}, {});
+  for (const Vec3& x : {Vec3(0.0, 0.0, -1.0), Vec3(2.0, 5.0, 2.0), Vec3(0.5, 1.0, 0.5), Vec3(1.0, 3.3, -0.99)})
+    expect_found(grid, x);
+  EXPECT_FALSE(locate(grid, {2.01, 1.0, 0.0}).has_value());
+  EXPECT_FALSE(locate(grid, {1.0, 1.0, std::nan("")}).has_value());
+}
+
+TEST(Locate, FindsThePointsOfABentPipeAndNoneBesideIt)
+{
+  Centreline line(frame_along(Vec3::Zero(), Vec3::UnitZ()));
+  line.add_straight(1.0);
+  line.add_bend(2.0, 2.0, Vec3::UnitX());
+  std::vector<double> stations;
+  for (int k = 0; k <= 24; ++k)
+    stations.push_back(line.length() * k / 24);
+  const CurvilinearNodes pipe = make_pipe({line, stations, 8, [](double) { return 0.5; }, nullptr});
+  const Grid grid(MPI_COMM_WORLD, pipe.cells, pipe.source, {});
+  for (double s = 0.02; s < line.length(); s += 0.21) {
+    const CurvePoint p = line.at(s);
+    expect_found(grid, p.x);
+    expect_found(grid, p.x + 0.45 * p.e1);
+    expect_found(grid, p.x - 0.3 * p.e1 + 0.3 * p.e2);
+    EXPECT_FALSE(locate(grid, p.x + 0.52 * p.e2).has_value());
+  }
+  EXPECT_FALSE(locate(grid, {0.0, 0.0, -0.01}).has_value());
+}
+
+}  // namespace
+}  // namespace luff::grid
