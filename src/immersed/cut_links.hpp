@@ -14,8 +14,8 @@
 #include "core/vec3.hpp"
 #include "grid/grid.hpp"
 #include "immersed/crossings.hpp"
-#include "immersed/link_tree.hpp"
 #include "immersed/inside.hpp"
+#include "immersed/link_tree.hpp"
 #include "immersed/rigid_velocity.hpp"
 #include "parallel/field.hpp"
 
