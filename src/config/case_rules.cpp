@@ -72,6 +72,16 @@ bool may_be_inside(const Vec3& point, const GridOptions& grid)
   return true;
 }
 
+void state_body_rules(Schema& s, const Case& options)
+{
+  for (std::size_t i = 0; i < options.bodies.size(); ++i) {
+    const bool free = options.bodies[i].motion.type == MotionType::Free;
+    const auto key = fmt::format("body.{}.motion.type", i);
+    s.rule(!free || options.fluid, key, "must be another one without a [fluid]");
+    s.rule(!free || !options.contact, key, "must be another one with [contact], which knows prescribed bodies only");
+  }
+}
+
 void state_probe_rules(Schema& s, const Case& options)
 {
   const auto surfaces = surface_names(options);
@@ -113,6 +123,7 @@ void state_case_rules(Schema& s, const Case& options)
   state_names_rule(s, options);
   state_periodic_rule(s, options);
   state_material_rule(s, options);
+  state_body_rules(s, options);
   state_probe_rules(s, options);
 }
 

@@ -17,7 +17,7 @@ void describe(Schema& s, Case& options)
     s.table("boundary", options.boundary, {.doc = "Conditions on the six sides of the grid.", .required = true});
   });
   s.list("shell", options.shells, {.doc = "A thin flexible shell; any number of them."});
-  s.list("body", options.bodies, {.doc = "A thin rigid sheet; any number of them."});
+  s.list("body", options.bodies, {.doc = "A rigid thin sheet or closed body; any number of them."});
   s.when(options.structure.analysis == Analysis::Dynamic, "`structure.analysis = \"dynamic\"`", [&] {
     s.table("contact", options.contact,
             {.doc = "Contact of shells with each other, with themselves and with bodies. Absent: they pass through "

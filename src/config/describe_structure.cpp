@@ -140,20 +140,68 @@ void describe(Schema& s, LoadOptions& load)
 
 void describe(Schema& s, BodyOptions& body)
 {
+  s.mark(body.mark);
   describe_name(s, body.name, surface_name);
-  s.table("mesh", body.mesh, {.doc = "Triangles of a thin rigid sheet.", .required = true});
+  s.table("mesh", body.mesh,
+          {.doc = "Triangles of a thin rigid sheet, or of the surface of a closed body.", .required = true});
   describe_placement(s, body.placement);
+  s.key("closed", body.closed,
+        {.doc = "Whether there is no fluid inside. The mesh may then have edges only on `symmetry`, `slip` and "
+                "`periodic` sides of the grid. Absent: true for a mesh without edges, false for others."});
   s.table("motion", body.motion, {.doc = "How it moves from where it is placed. Absent: it doesn't."});
 }
 
+namespace {
+
+void describe_free_motion(Schema& s, MotionOptions& motion)
+{
+  const bool free = motion.type == MotionType::Free;
+  s.key("density", motion.density,
+        {.doc = "Of a closed body: gives mass, centre and inertia.", .unit = "kg/m^3", .range = positive});
+  s.key("mass", motion.mass, {.doc = "Mass, instead of `density`.", .unit = "kg", .range = positive});
+  s.rule(!free || motion.density.has_value() != motion.mass.has_value(), "mass",
+         "must be given, or else `density`, not both");
+  s.key("centre", motion.centre,
+        {.doc = "Centre of mass, as placed. Absent: that of the volume of a closed body.", .unit = "m"});
+  s.key("inertia", motion.inertia,
+        {.doc = "Moments of inertia about the axes of space through the centre, as placed. Absent: those of a closed "
+                "body of even density.",
+         .unit = "kg m^2"});
+  s.rule(!motion.inertia || (motion.inertia->array() > 0.0).all(), "inertia", "must be three numbers > 0");
+  s.key("freedoms", motion.freedoms,
+        {.doc = "Which of its six degrees of freedom it has: displacement of its centre along, turns about the axes of "
+                "space. The others are held. A part of the turns makes sense if one is left, or all."});
+  s.rule(!free || !motion.freedoms.empty(), "freedoms", "must not be empty");
+  s.key("stiffness", motion.stiffness,
+        {.doc = "Of springs along x, y and z, at rest where it is placed.", .unit = "N/m"});
+  s.key("damping", motion.damping, {.doc = "Of dampers along x, y and z.", .unit = "N s/m"});
+  s.key("turning_stiffness", motion.turning_stiffness,
+        {.doc = "Of springs about x, y and z: moment per component of the rotation vector.", .unit = "N m/rad"});
+  s.key("turning_damping", motion.turning_damping, {.doc = "Of dampers about x, y and z.", .unit = "N m s/rad"});
+  for (const auto& [key, value] :
+       {std::pair("stiffness", motion.stiffness), std::pair("damping", motion.damping),
+        std::pair("turning_stiffness", motion.turning_stiffness), std::pair("turning_damping", motion.turning_damping)})
+    s.rule((value.array() >= 0.0).all(), key, "must be three numbers >= 0");
+  s.key("gravity", motion.gravity,
+        {.doc = "Acts on its mass. Buoyancy comes from the pressure, when `fluid.body_force` has gravity too.",
+         .unit = "m/s^2"});
+  s.key("velocity", motion.velocity, {.doc = "Of the centre at t = 0.", .unit = "m/s"});
+  s.key("spin", motion.spin, {.doc = "Angular velocity at t = 0.", .unit = "rad/s"});
+}
+
+}  // namespace
+
 void describe(Schema& s, MotionOptions& motion)
 {
-  s.key("type", motion.type, {.doc = "`fixed`, or `prescribed` by the keys below."});
+  s.key(
+      "type", motion.type,
+      {.doc = "`fixed`; `prescribed` by the keys below; or `free`, moved by the flow, gravity, springs and dampers."});
   s.when(motion.type == MotionType::Prescribed, "`type = \"prescribed\"`", [&] {
     s.key("translation", motion.translation,
           {.doc = "Displacement, of t; applied after the rotation.", .unit = "m", .time_only = true});
     s.table("rotation", motion.rotation, {.doc = "Rotation about a fixed axis."});
   });
+  s.when(motion.type == MotionType::Free, "`type = \"free\"`", [&] { describe_free_motion(s, motion); });
 }
 
 void describe(Schema& s, RotationOptions& rotation)

@@ -287,23 +287,41 @@ struct ShellOptions {
   bool operator==(const ShellOptions&) const = default;
 };
 
-enum class MotionType { Fixed, Prescribed };
+enum class MotionType { Fixed, Prescribed, Free };
+/// Displacements of a body's centre of mass and turns about it, along and about the axes of space.
+enum class Freedom { X, Y, Z, TurnX, TurnY, TurnZ };
 
-/// Rigid motion from where the mesh is put: rotation about a fixed axis, then translation; functions of t alone.
+/// Rigid motion from where the mesh is put.  Prescribed: rotation about a fixed axis, then translation, functions of t
+/// alone.  Free: by the forces of the flow, of gravity, of springs and dampers.
 struct MotionOptions {
   MotionType type = MotionType::Fixed;
   VectorExpression translation;
   std::optional<RotationOptions> rotation;
 
+  std::optional<double> density;  ///< of a closed body: gives mass, centre and inertia; or else
+  std::optional<double> mass;
+  std::optional<Vec3> centre;   ///< of mass
+  std::optional<Vec3> inertia;  ///< about the axes through the centre
+  std::vector<Freedom> freedoms{Freedom::X, Freedom::Y, Freedom::Z, Freedom::TurnX, Freedom::TurnY, Freedom::TurnZ};
+  Vec3 stiffness = Vec3::Zero();
+  Vec3 damping = Vec3::Zero();
+  Vec3 turning_stiffness = Vec3::Zero();
+  Vec3 turning_damping = Vec3::Zero();
+  Vec3 gravity = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero();  ///< at t = 0
+  Vec3 spin = Vec3::Zero();      ///< at t = 0, rad/s
+
   bool operator==(const MotionOptions&) const = default;
 };
 
-/// [[body]]: a rigid thin sheet.
+/// [[body]]: rigid; a thin sheet, or the surface of a closed body.
 struct BodyOptions {
   std::string name;
   MeshOptions mesh;
   PlacementOptions placement;
+  std::optional<bool> closed;  ///< none: when the mesh has no edges
   MotionOptions motion;
+  Mark mark = {};
 
   bool operator==(const BodyOptions&) const = default;
 };

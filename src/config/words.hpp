@@ -98,7 +98,17 @@ inline Words<Component> words(Component)
 
 inline Words<MotionType> words(MotionType)
 {
-  return {{{MotionType::Fixed, "fixed"}, {MotionType::Prescribed, "prescribed"}}, {"free"}};
+  return {{{MotionType::Fixed, "fixed"}, {MotionType::Prescribed, "prescribed"}, {MotionType::Free, "free"}}};
+}
+
+inline Words<Freedom> words(Freedom)
+{
+  return {{{Freedom::X, "x"},
+           {Freedom::Y, "y"},
+           {Freedom::Z, "z"},
+           {Freedom::TurnX, "turn_x"},
+           {Freedom::TurnY, "turn_y"},
+           {Freedom::TurnZ, "turn_z"}}};
 }
 
 inline Words<Analysis> words(Analysis)

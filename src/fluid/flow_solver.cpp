@@ -38,6 +38,7 @@ FlowSolver::FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries b
       halo_(grid.ranks()),
       diffusive_rate_(options_.viscosity * operators::diffusive_rate(grid)),
       links_(grid),
+      balance_(grid),
       state_{make_field3<double>(grid.owned()), make_field3<double>(grid.owned()), Field<double>(grid.owned()),
              Field<double>(grid.owned())},
       u_(make_field3<double>(grid.owned())),
@@ -161,6 +162,7 @@ void FlowSolver::find_cut_links(const immersed::SheetMotion& predicted, double s
   for (const immersed::CutFace& face : links_.faces())
     blocked.push_back({face.axis, face.cell});
   pressure_->set_blocked(blocked);
+  balance_.update(links_, *pressure_);
 }
 
 /// du <- du + dt (gamma N(u) + zeta N_old), in every cell; the wall terms of cut cells follow in bind_to_walls().
@@ -283,7 +285,7 @@ void FlowSolver::interpolate_increment()
   operators::interpolate_to_faces(grid_, views(std::as_const(state_.U)), views(std::as_const(increment_)), views(U_));
 }
 
-/// The fluxes that are prescribed, on the domain's sides and on cut faces.
+/// The fluxes that are prescribed, on the domain's sides and on cut faces; in all zero for each sealed component.
 void FlowSolver::prescribe_fluxes(const StageTime& time)
 {
   boundary_.evaluate_at(step_.t_old + time.fraction * step_.dt);
@@ -293,6 +295,7 @@ void FlowSolver::prescribe_fluxes(const StageTime& time)
   if (grid_.kind() == grid::Kind::Curvilinear)
     boundary_.subtract_side_gradient(views(std::as_const(state_.U)), du, views(U_));
   links_.impose_fluxes(time, views(U_));
+  balance_.apply(views(U_), step_);
 }
 
 /// U* of a stage on all faces.
@@ -366,6 +369,11 @@ void FlowSolver::recover(const StageTime& time)
   const auto timer = profile_.time(Phase::Momentum);
   operators::recover_velocity(grid_, views(std::as_const(U_)), views(u_));
   immersed::recover_velocity(grid_, links_, views(std::as_const(U_)), time, views(u_));
+  for (const auto& [cell, body] : links_.inside()) {
+    const Vec3 u = links_.body_velocity(body, grid_.centre(cell[0], cell[1], cell[2]), time);
+    for (int d = 0; d < 3; ++d)
+      u_[d].view()(cell) = u[d];
+  }
 }
 
 /// p <- p^n; in cells that changed sides, the mean over neighbours on the new side.
@@ -379,24 +387,21 @@ void FlowSolver::repair_pressure()
     p(c) = unknown;
   halo_.exchange({p});
   std::vector<double> repaired;
-  for (const immersed::CutCell& cut : links_.cells()) {
-    if (!std::isnan(p(cut.cell)))
-      continue;
+  for (const Index3& c : links_.flipped()) {
     double sum = 0.0;
     int known = 0;
     for (int link = 0; link < 6; ++link) {
-      const Index3 beside = stepped(cut.cell, link / 2, link % 2 == 0 ? -1 : 1);
-      if (cut.face[link] != immersed::open_link || !grid_.owned().grown(1).contains(beside) || std::isnan(p(beside)))
+      const int axis = link / 2;
+      const Index3 beside = stepped(c, axis, link % 2 == 0 ? -1 : 1);
+      if (links_.is_cut(axis, stepped(c, axis, link % 2)) || std::isnan(p(beside)))
         continue;
       sum += p(beside);
       ++known;
     }
-    repaired.push_back(known > 0 ? sum / known : state_.p.view()(cut.cell));
+    repaired.push_back(known > 0 ? sum / known : state_.p.view()(c));
   }
-  std::size_t n = 0;
-  for (const immersed::CutCell& cut : links_.cells())
-    if (std::isnan(p(cut.cell)))
-      p(cut.cell) = repaired[n++];
+  for (std::size_t n = 0; n < repaired.size(); ++n)
+    p(links_.flipped()[n]) = repaired[n];
   halo_.exchange({p});
   boundary_.fill_pressure(p);
 }

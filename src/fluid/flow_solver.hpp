@@ -26,6 +26,7 @@
 #include "core/time_step.hpp"
 #include "fluid/boundary.hpp"
 #include "immersed/cross_terms.hpp"
+#include "fluid/component_balance.hpp"
 #include "immersed/cut_cells.hpp"
 #include "immersed/cut_links.hpp"
 #include "immersed/loads.hpp"
@@ -88,6 +89,8 @@ class FlowSolver {
 
   [[nodiscard]] const FlowState& state() const { return state_; }
   [[nodiscard]] const immersed::CutLinks& links() const { return links_; }
+  /// Parts of the fluid that sheets seal off from every outlet, and what leaks out of them.
+  [[nodiscard]] const ComponentBalance& balance() const { return balance_; }
   [[nodiscard]] const grid::Grid& grid() const { return grid_; }
   [[nodiscard]] const FlowOptions& options() const { return options_; }
   /// Time spent since the caller last reset it.
@@ -131,6 +134,7 @@ class FlowSolver {
   double diffusive_rate_;
   immersed::CutLinks links_;
   std::optional<immersed::CrossTerms> cross_terms_;  ///< on curvilinear grids
+  ComponentBalance balance_;
   TimeStep step_;
   mutable Profile profile_;
   std::size_t sheet_vertices_ = 0;

@@ -22,6 +22,7 @@ Vec3 interpolate(std::span<const Vec3> field, const std::array<int, 3>& triangle
 
 CutLinks::CutLinks(const grid::Grid& grid)
     : grid_(grid),
+      solid_(grid.owned(), 0),
       mark_{Field<int>(grid.owned(), open_link), Field<int>(grid.owned(), open_link),
             Field<int>(grid.owned(), open_link)}
 {
@@ -30,9 +31,28 @@ CutLinks::CutLinks(const grid::Grid& grid)
 void CutLinks::freeze(const SheetMotion& predicted, double dt, double speed, const View3<const double>& U_old)
 {
   dt_ = dt;
+  positions_ = predicted.position;
   triangles_ = predicted.triangles;
+  bodies_ = predicted.bodies;
   find_crossings(predicted.position);
+  interpolate_prediction(predicted);
+  find_faces();
+  find_cells();
+  find_flipped();
+  find_given_back();
+  start_offsets(speed, U_old);
+}
+
+/// What the hits know of the sheet: place, normal, velocity and acceleration; at closed bodies those of a rigid motion,
+/// whose flux out of any set of cells is zero.
+void CutLinks::interpolate_prediction(const SheetMotion& predicted)
+{
+  predicted_body_velocity_ = rigid_velocities(predicted.velocity);
+  predicted_body_acceleration_ = rigid_velocities(predicted.acceleration);
+  body_velocity_ = predicted_body_velocity_;
   const std::size_t n = crossings_.size();
+  body_of_hit_.assign(n, -1);
+  places_.resize(n);
   normals_.resize(n);
   predicted_velocity_.resize(n);
   predicted_acceleration_.resize(n);
@@ -40,14 +60,17 @@ void CutLinks::freeze(const SheetMotion& predicted, double dt, double speed, con
     const auto& [a, b, c] = triangle(crossings_[q]);
     normals_[q] =
         surface::area_vector(predicted.position[a], predicted.position[b], predicted.position[c]).normalized();
+    places_[q] = interpolate(predicted.position, triangle(crossings_[q]), crossings_[q]);
     predicted_velocity_[q] = interpolate(predicted.velocity, triangle(crossings_[q]), crossings_[q]);
     predicted_acceleration_[q] = interpolate(predicted.acceleration, triangle(crossings_[q]), crossings_[q]);
+    for (std::size_t body = 0; body < bodies_.size(); ++body)
+      if (bodies_[body].holds(crossings_[q].triangle)) {
+        body_of_hit_[q] = static_cast<int>(body);
+        predicted_velocity_[q] = predicted_body_velocity_[body].at(places_[q]);
+        predicted_acceleration_[q] = predicted_body_acceleration_[body].at(places_[q]);
+      }
   }
   velocity_ = predicted_velocity_;
-  find_faces();
-  find_cells();
-  find_flipped();
-  start_offsets(speed, U_old);
 }
 
 void CutLinks::find_crossings(std::span<const Vec3> positions)
@@ -67,8 +90,26 @@ void CutLinks::find_crossings(std::span<const Vec3> positions)
 
 void CutLinks::set_velocity(std::span<const Vec3> velocity)
 {
+  body_velocity_ = rigid_velocities(velocity);
   for (std::size_t q = 0; q < crossings_.size(); ++q)
-    velocity_[q] = interpolate(velocity, triangle(crossings_[q]), crossings_[q]);
+    velocity_[q] = body_of_hit_[q] < 0 ? interpolate(velocity, triangle(crossings_[q]), crossings_[q])
+                                       : body_velocity_[body_of_hit_[q]].at(places_[q]);
+}
+
+std::vector<RigidVelocity> CutLinks::rigid_velocities(std::span<const Vec3> velocity) const
+{
+  std::vector<RigidVelocity> rigid;
+  for (const ClosedSurface& body : bodies_)
+    rigid.push_back(nearest_rigid_velocity(std::span(positions_).subspan(body.first_vertex, body.vertices),
+                                           velocity.subspan(body.first_vertex, body.vertices)));
+  return rigid;
+}
+
+Vec3 CutLinks::body_velocity(int body, const Vec3& x, const StageTime& time) const
+{
+  if (time.sheet == SheetVelocity::Current)
+    return body_velocity_[body].at(x);
+  return predicted_body_velocity_[body].at(x) - (1.0 - time.fraction) * dt_ * predicted_body_acceleration_[body].at(x);
 }
 
 /// One face per cut link; hits on a link follow one another, ordered by theta.
@@ -88,12 +129,18 @@ void CutLinks::find_faces()
   }
 }
 
+/// The cells inside bodies, and those of the fluid beside cut faces.
 void CutLinks::find_cells()
 {
+  for (const InsideCell& inside : inside_)
+    solid_.view()(inside.cell) = 0;
+  inside_ = find_inside(grid_, crossings_, bodies_);
+  for (const InsideCell& inside : inside_)
+    solid_.view()(inside.cell) = 1;
   std::vector<std::array<int, 3>> beside;  // k, j, i: sorted as the fields are stored
   for (const CutFace& face : faces_)
     for (const Index3& c : {face.cell, stepped(face.cell, face.axis, -1)})
-      if (grid_.owned().contains(c))
+      if (grid_.owned().contains(c) && solid_.view()(c) == 0)
         beside.push_back({c[2], c[1], c[0]});
   std::sort(beside.begin(), beside.end());
   beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
@@ -127,13 +174,74 @@ void CutLinks::find_flipped()
     }
 }
 
+/// Cells that were inside a body and are not any more; their velocity and fluxes are those of the body.
+void CutLinks::find_given_back()
+{
+  const auto sweep_order = [](const Index3& a, const Index3& b) {
+    return std::array{a[2], a[1], a[0]} < std::array{b[2], b[1], b[0]};
+  };
+  for (const InsideCell& before : accepted_inside_)
+    if (solid_.view()(before.cell) == 0)
+      flipped_.push_back(before.cell);
+  std::sort(flipped_.begin(), flipped_.end(), sweep_order);
+  flipped_.erase(std::unique(flipped_.begin(), flipped_.end()), flipped_.end());
+}
+
+namespace {
+
+/// The velocity of a body at t^n, from that at t^{n+1} and the mean acceleration of the step.
+RigidVelocity velocity_before(const RigidVelocity& velocity, const RigidVelocity& acceleration, double dt)
+{
+  return {.centre = velocity.centre - dt * (velocity.velocity - 0.5 * dt * acceleration.velocity),
+          .velocity = velocity.velocity - dt * acceleration.velocity,
+          .spin = velocity.spin - dt * acceleration.spin};
+}
+
+/// tau = d/speed of each body, d the mean length of its links: one for all of its faces, so that offsets that add up to
+/// zero go on to do so.  Collective.
+std::vector<double> decay_times(const grid::Grid& grid, std::size_t bodies, std::span<const CutFace> faces,
+                                std::span<const int> body_of_hit, std::span<const Vec3> velocity, double speed,
+                                double dt)
+{
+  std::vector<double> lengths(2 * bodies, 0.0);  // and numbers of faces
+  std::vector<double> fastest(bodies, speed);
+  for (const CutFace& face : faces)
+    if (const int body = body_of_hit[face.first]; body >= 0) {
+      lengths[2 * body] += distance_across(grid, face.axis, face.cell);
+      lengths[2 * body + 1] += 1.0;
+      fastest[body] = std::max(fastest[body], velocity[face.first].norm());
+    }
+  const MPI_Comm comm = grid.ranks().comm();
+  MPI_Allreduce(MPI_IN_PLACE, lengths.data(), static_cast<int>(lengths.size()), MPI_DOUBLE, MPI_SUM, comm);
+  MPI_Allreduce(MPI_IN_PLACE, fastest.data(), static_cast<int>(fastest.size()), MPI_DOUBLE, MPI_MAX, comm);
+  std::vector<double> times(bodies, dt);
+  for (std::size_t b = 0; b < bodies; ++b)
+    if (fastest[b] > 0.0 && lengths[2 * b + 1] > 0.0)
+      times[b] = lengths[2 * b] / lengths[2 * b + 1] / fastest[b];
+  return times;
+}
+
+}  // namespace
+
 void CutLinks::start_offsets(double speed, const View3<const double>& U_old)
 {
+  std::vector<RigidVelocity> before;
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    before.push_back(velocity_before(predicted_body_velocity_[b], predicted_body_acceleration_[b], dt_));
+  const std::vector<double> body_times =
+      bodies_.empty() ? std::vector<double>()
+                      : decay_times(grid_, bodies_.size(), faces_, body_of_hit_, predicted_velocity_, speed, dt_);
   for (CutFace& face : faces_) {
-    const Vec3& u_first = predicted_velocity_[face.first];
-    const Vec3& u_last = predicted_velocity_[face.last];
+    const auto at_start = [&](int hit) -> Vec3 {
+      return body_of_hit_[hit] < 0 ? predicted_velocity_[hit] : before[body_of_hit_[hit]].at(places_[hit]);
+    };
+    const Vec3 u_first = at_start(face.first);
+    const Vec3 u_last = at_start(face.last);
     const double fastest = std::max({speed, u_first.norm(), u_last.norm()});
-    face.decay_time = fastest > 0.0 ? distance_across(grid_, face.axis, face.cell) / fastest : dt_;
+    if (const int body = body_of_hit_[face.first]; body >= 0)
+      face.decay_time = body_times[body];
+    else
+      face.decay_time = fastest > 0.0 ? distance_across(grid_, face.axis, face.cell) / fastest : dt_;
     if (const auto* old = old_offset(key(face.axis, face.cell))) {
       face.offset = old->second;
     } else {
@@ -158,6 +266,24 @@ void CutLinks::impose_fluxes(const StageTime& time, const View3<double>& U) cons
     const auto [i, j, k] = face.cell;
     U[face.axis](i, j, k) = grid_.area(face.axis, i, j, k) * face_velocity(face, time);
   }
+  impose_fluxes_inside(time, U);
+}
+
+/// Sides of the domain that a body ends on keep their own flux.
+void CutLinks::impose_fluxes_inside(const StageTime& time, const View3<double>& U) const
+{
+  for (const auto& [cell, body] : inside_)
+    for (int link = 0; link < 6; ++link) {
+      const int axis = link / 2;
+      const int side = link % 2;
+      const Index3 face = stepped(cell, axis, side);
+      const bool on_side =
+          !grid_.ranks().periodic(axis) && (side == 0 ? face[axis] == 0 : face[axis] == grid_.cells()[axis]);
+      if (on_side || is_cut(axis, face))
+        continue;
+      const Vec3 x = grid_.face_centre(axis, face[0], face[1], face[2]);
+      U[axis](face) = grid_.area_vector(axis, face[0], face[1], face[2]).dot(body_velocity(body, x, time));
+    }
 }
 
 void CutLinks::accept()
@@ -167,6 +293,7 @@ void CutLinks::accept()
     const CutFace& face = faces_[n];
     accepted_offsets_[n] = {key(face.axis, face.cell), face.offset * std::exp(-dt_ / face.decay_time)};
   }
+  accepted_inside_ = inside_;
 }
 
 /// Position of a face in the order in which crossings are sorted.

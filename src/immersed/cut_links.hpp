@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Links between cell centres that a sheet cuts, the cells beside them, and the flux through their faces.
 //
-// Variant C, "cut-link": no cell is left out; each cut link is one-sided (docs/numerics/immersed.md).
+// Variant C, "cut-link": no cell of the fluid is left out; each cut link is one-sided (docs/numerics/immersed.md).
+// Cells inside closed bodies move with them.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,9 @@
 #include "core/vec3.hpp"
 #include "grid/grid.hpp"
 #include "immersed/crossings.hpp"
+#include "immersed/inside.hpp"
 #include "immersed/link_tree.hpp"
+#include "immersed/rigid_velocity.hpp"
 #include "parallel/field.hpp"
 
 namespace luff::immersed {
@@ -27,6 +30,7 @@ struct SheetMotion {
   std::vector<Vec3> velocity;      ///< [L/T]
   std::vector<Vec3> acceleration;  ///< [L/T^2]
   std::vector<std::array<int, 3>> triangles;
+  std::vector<ClosedSurface> bodies = {};  ///< rigid
 };
 
 /// Which velocity of the sheet a stage sees.
@@ -52,8 +56,8 @@ struct CutFace {
   double decay_time = 0;  ///< tau [T]
 };
 
-/// A cell with at least one cut link.  face[2a] is its low and face[2a+1] its high face along axis a: an index of
-/// CutLinks::faces(), or open_link.
+/// A cell of the fluid with at least one cut link.  face[2a] is its low and face[2a+1] its high face along axis a: an
+/// index of CutLinks::faces(), or open_link.
 struct CutCell {
   Index3 cell{};
   std::array<int, 6> face{};
@@ -75,6 +79,9 @@ class CutLinks {
   ///
   ///   eps = the old offset where the link was cut at t^n, U^n_f/A_f - u_b^0 . e where it was not,  tau = d/speed.
   ///
+  /// At closed bodies u_b^0 is that of t^n, the predictor's u_b^0 - dt a_b^0: then the offsets around a body have no
+  /// net flux, whichever cells it takes in and gives back, and need no source of mass.  Collective.
+  ///
   /// `speed` [L/T]: the reference speed of the flow; the sheet's own is used where it is larger.
   /// Collective.
   void freeze(const SheetMotion& predicted, double dt, double speed, const View3<const double>& U_old);
@@ -82,7 +89,7 @@ class CutLinks {
   /// Velocity u_b of the current coupling iterate at the vertices.
   void set_velocity(std::span<const Vec3> velocity);
 
-  /// Commits the flux offsets, decayed over the step.
+  /// Commits the flux offsets, decayed over the step, and which cells lie inside bodies.
   void accept();
   /// The accepted offsets of the faces of this rank's cells, each face on one rank only.
   [[nodiscard]] FluxOffsets accepted_offsets() const;
@@ -92,8 +99,18 @@ class CutLinks {
   [[nodiscard]] const std::vector<Crossing>& crossings() const { return crossings_; }
   [[nodiscard]] const std::vector<CutFace>& faces() const { return faces_; }
   [[nodiscard]] const std::vector<CutCell>& cells() const { return cells_; }
-  /// Owned cells whose centre the sheet swept over since the accepted step.
+  /// Owned cells inside closed bodies.
+  [[nodiscard]] const std::vector<InsideCell>& inside() const { return inside_; }
+  [[nodiscard]] bool is_inside(const Index3& owned) const { return solid_.view()(owned) != 0; }
+  /// Owned cells of the fluid whose centre the sheet swept over since the accepted step, or which a body gave back.
   [[nodiscard]] const std::vector<Index3>& flipped() const { return flipped_; }
+  /// Whether the low face of a cell, owned or just behind owned ones, belongs to a cut link.
+  [[nodiscard]] bool is_cut(int axis, const Index3& cell) const { return mark_[axis].view()(cell) != open_link; }
+  /// Whether a side of a hit (0: P's, 1: N's) looks into the body that the surface bounds.
+  [[nodiscard]] bool looks_inside(int hit, int link_side) const
+  {
+    return body_of_hit_[hit] >= 0 && (link_side == 1) == (crossings_[hit].side < 0);
+  }
   [[nodiscard]] const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
   [[nodiscard]] const std::array<int, 3>& triangle(const Crossing& hit) const { return triangles_[hit.triangle]; }
   /// Unit normal of the sheet at hit q.
@@ -111,16 +128,22 @@ class CutLinks {
       return velocity_[hit];
     return predicted_velocity_[hit] - (1.0 - time.fraction) * dt_ * predicted_acceleration_[hit];
   }
-  /// U_f = A (u_b . e + eps exp(-c dt/tau)), into the fluxes of every cut face.
+  /// Velocity of the body that an inside cell lies in, at a place.
+  [[nodiscard]] Vec3 body_velocity(int body, const Vec3& x, const StageTime& time) const;
+  /// U_f = A (u_b . e + eps exp(-c dt/tau)), into the fluxes of every cut face; U_f = A u_b . e between cells inside.
   void impose_fluxes(const StageTime& time, const View3<double>& U) const;
 
  private:
   void find_crossings(std::span<const Vec3> positions);
+  void interpolate_prediction(const SheetMotion& predicted);
   void find_faces();
   void find_cells();
   void find_flipped();
+  void find_given_back();
   void start_offsets(double speed, const View3<const double>& U_old);
   [[nodiscard]] double face_velocity(const CutFace& face, const StageTime& time) const;
+  void impose_fluxes_inside(const StageTime& time, const View3<double>& U) const;
+  [[nodiscard]] std::vector<RigidVelocity> rigid_velocities(std::span<const Vec3> velocity) const;
   [[nodiscard]] std::int64_t key(int axis, const Index3& cell) const;
   [[nodiscard]] bool keeps(std::int64_t key) const;
   [[nodiscard]] const std::pair<std::int64_t, double>* old_offset(std::int64_t key) const;
@@ -129,17 +152,27 @@ class CutLinks {
   const grid::Grid& grid_;
   double dt_ = 0.0;
   std::unique_ptr<const LinkTree> tree_;  ///< of curvilinear grids, once there is a sheet
+  std::vector<Vec3> positions_;           ///< of the vertices
   std::vector<std::array<int, 3>> triangles_;
+  std::vector<ClosedSurface> bodies_;
+  std::vector<RigidVelocity> predicted_body_velocity_;
+  std::vector<RigidVelocity> predicted_body_acceleration_;
+  std::vector<RigidVelocity> body_velocity_;
   std::vector<Crossing> crossings_;
+  std::vector<int> body_of_hit_;  ///< -1: not of a closed body
+  std::vector<Vec3> places_;      ///< of the hits
   std::vector<Vec3> normals_;
   std::vector<Vec3> predicted_velocity_;
   std::vector<Vec3> predicted_acceleration_;
   std::vector<Vec3> velocity_;
   std::vector<CutFace> faces_;
   std::vector<CutCell> cells_;
+  std::vector<InsideCell> inside_;
   std::vector<Index3> flipped_;
-  Field3<int> mark_;  ///< index into faces_ of each face of the owned cells, or open_link
+  Field<char> solid_;  ///< 1 in the owned cells inside bodies
+  Field3<int> mark_;   ///< index into faces_ of each face of the owned cells, or open_link
   std::vector<std::pair<std::int64_t, double>> accepted_offsets_;  ///< sorted by face
+  std::vector<InsideCell> accepted_inside_;
 };
 
 }  // namespace luff::immersed

@@ -62,20 +62,27 @@ HitTraction one_sided(const grid::Grid& grid, const CutLinks& links, const LoadF
           .viscous = fields.density * wall_shear(grid, links, fields, view, along)};
 }
 
-/// The side of a hit that looks into the gap between two hits of one link: mean pressure, Couette shear.
+/// The side of a hit that looks into the gap between two hits of one link: mean pressure of the fluid beside it,
+/// Couette shear.
 HitTraction in_gap(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const CutFace& face,
                    int hit, int other)
 {
   const double d = distance_across(grid, face.axis, face.cell);
   const double width = std::max(std::abs(links.crossings()[other].theta - links.crossings()[hit].theta), theta_min) * d;
   const StageTime now{1.0, SheetVelocity::Current};
+  const bool low = !links.looks_inside(face.first, 0);
+  const bool high = !links.looks_inside(face.last, 1);
+  const double p_low = fields.p(stepped(face.cell, face.axis, -1));
+  const double p_high = fields.p(face.cell);
+  const double p = low == high ? 0.5 * (p_low + p_high) : low ? p_low : p_high;
   return {
-      .pressure = 0.5 * fields.density * (fields.p(face.cell) + fields.p(stepped(face.cell, face.axis, -1))),
+      .pressure = fields.density * p,
       .viscous = fields.density * fields.viscosity / width * (links.velocity(other, now) - links.velocity(hit, now))};
 }
 
 /// visit(hit, link_side, traction, area): every hit from both of its sides; link_side 0 is P's, 1 is N's.  Each rank
-/// visits the sides towards its own cells; gap sides belong to the owner of N.
+/// visits the sides towards its own cells; gap sides belong to the owner of N.  Sides that look into a body are none of
+/// the fluid's.
 template <class Visit>
 void for_each_hit_side(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, Visit visit)
 {
@@ -89,14 +96,19 @@ void for_each_hit_side(const grid::Grid& grid, const CutLinks& links, const Load
         const CutFace& face = links.faces()[f];
         const double area = grid.area(axis, face.cell[0], face.cell[1], face.cell[2]);
         visit(side == 1 ? face.first : face.last, 1 - side, one_sided(grid, links, fields, {cut, n, axis, side}), area);
-        if (side == 1)
-          continue;
-        for (int q = face.first; q < face.last; ++q) {
-          visit(q, 1, in_gap(grid, links, fields, face, q, q + 1), area);
-          visit(q + 1, 0, in_gap(grid, links, fields, face, q + 1, q), area);
-        }
       }
     }
+  for (const CutFace& face : links.faces()) {
+    if (!grid.owned().contains(face.cell))
+      continue;
+    const double area = grid.area(face.axis, face.cell[0], face.cell[1], face.cell[2]);
+    for (int q = face.first; q < face.last; ++q) {
+      if (links.looks_inside(q, 1) || links.looks_inside(q + 1, 0))
+        continue;
+      visit(q, 1, in_gap(grid, links, fields, face, q, q + 1), area);
+      visit(q + 1, 0, in_gap(grid, links, fields, face, q + 1, q), area);
+    }
+  }
 }
 
 /// Whether a side of the link (0: P's, 1: N's) is the sheet's + side.

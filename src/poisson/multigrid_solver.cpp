@@ -260,8 +260,10 @@ std::vector<double> MultigridSolver::means(const View<const double>& values, boo
   return result;
 }
 
-std::size_t MultigridSolver::component_of(const Index3& cell) const
+int MultigridSolver::component_of(const Index3& cell) const
 {
+  if (component_.empty())
+    return 0;
   const IndexBox& box = multigrid_.finest().layout().owned;
   const Index3 c = internal(cell);
   return component_[(c[0] - box.lo[0]) +

@@ -21,6 +21,9 @@ class MultigridSolver final : public PressureSolver {
   void set_blocked(std::span<const FaceIndex> faces) override;
   Report project(const View3<double>& U, const View<double>& p, double dt, const Target& target) override;
   void subtract_gradient(const View3<double>& U, const View<double>& p, double dt) override;
+  [[nodiscard]] int components() const override { return static_cast<int>(floating_.size()); }
+  [[nodiscard]] bool is_floating(int component) const override { return floating_[component] != 0; }
+  [[nodiscard]] int component_of(const Index3& cell) const override;
 
  private:
   [[nodiscard]] Index3 internal(const Index3& c) const { return {c[0], c[axis_[1]], c[axis_[2]]}; }
@@ -34,7 +37,6 @@ class MultigridSolver final : public PressureSolver {
   void make_cross_terms();
   void update_operator();
   void label_components();
-  [[nodiscard]] std::size_t component_of(const Index3& cell) const;
   [[nodiscard]] std::vector<double> means(const View<const double>& values, bool by_volume) const;
   [[nodiscard]] std::vector<double> mean_of_all(const View<const double>& values, bool by_volume) const;
   void remove_means(const View<double>& values, bool by_volume) const;

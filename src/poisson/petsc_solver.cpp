@@ -89,6 +89,9 @@ class PetscSolver final : public PressureSolver {
 
   Report project(const View3<double>& U, const View<double>& p, double dt, const Target& target) override;
   void subtract_gradient(const View3<double>& U, const View<double>& p, double dt) override;
+  [[nodiscard]] int components() const override { return static_cast<int>(floating_.size()); }
+  [[nodiscard]] bool is_floating(int component) const override { return floating_[component] != 0; }
+  [[nodiscard]] int component_of(const Index3& cell) const override { return component_(cell[0], cell[1], cell[2]); }
 
  private:
   void rebuild()
@@ -96,12 +99,16 @@ class PetscSolver final : public PressureSolver {
     set_conductances();
     assemble();
     flood_components();
+    number_components();
+    find_floating();
   }
   void number_rows();
   void set_conductances();
   [[nodiscard]] double open_conductance(int axis, const Index3& cell) const;
   void assemble();
   void flood_components();
+  void number_components();
+  void find_floating();
   [[nodiscard]] bool spread_component(const Index3& c);
   [[nodiscard]] int solve(double scale, int max_iterations);
   void remove_means(const View<double>& p);
@@ -110,8 +117,9 @@ class PetscSolver final : public PressureSolver {
   SideConditions sides_;
   std::unique_ptr<FluxCorrection> fluxes_;
   HaloExchange halo_;
-  Field<int> number_;     // row of the matrix, halo included; -1 beyond the domain
-  Field<int> component_;  // smallest row of the component; -1 beyond the domain
+  Field<int> number_;           // row of the matrix, halo included; -1 beyond the domain
+  Field<int> component_;        // of owned cells
+  std::vector<char> floating_;  // per component
   Field<double> net_;
   Field<double> correction_;
   Field3<double> conductance_;  // A / d of every face, 0 where closed
@@ -240,28 +248,53 @@ void PetscSolver::flood_components()
   }
 }
 
-/// Subtracts the volume-weighted mean from components that no Dirichlet side touches.
-void PetscSolver::remove_means(const View<double>& p)
+/// Numbers from 0 in place of the smallest rows, in their order of ranks.
+void PetscSolver::number_components()
 {
-  const auto cells = static_cast<std::size_t>(grid_.cells()[0]) * grid_.cells()[1] * grid_.cells()[2];
-  std::vector<double> sums(3 * cells, 0.0);
+  std::vector<int> number(static_cast<std::size_t>(grid_.cells()[0]) * grid_.cells()[1] * grid_.cells()[2], -1);
+  int count = 0;
+  for_owned(grid_.owned(), [&](const Index3& c) { count += component_of(c) == number_.view()(c) ? 1 : 0; });
+  int next = 0;
+  int all = 0;
+  MPI_Exscan(&count, &next, 1, MPI_INT, MPI_SUM, grid_.ranks().comm());
+  MPI_Allreduce(&count, &all, 1, MPI_INT, MPI_SUM, grid_.ranks().comm());
   for_owned(grid_.owned(), [&](const Index3& c) {
-    const std::size_t label = component_(c[0], c[1], c[2]);
-    const double volume = grid_.volume(c[0], c[1], c[2]);
-    sums[3 * label] += volume * p(c);
-    sums[3 * label + 1] += volume;
+    if (component_of(c) == number_.view()(c))
+      number[component_of(c)] = next++;
+  });
+  MPI_Allreduce(MPI_IN_PLACE, number.data(), static_cast<int>(number.size()), MPI_INT, MPI_MAX, grid_.ranks().comm());
+  for_owned(grid_.owned(), [&](const Index3& c) { component_.view()(c) = number[component_of(c)]; });
+  floating_.assign(all, 1);
+}
+
+/// Components float that no Dirichlet side touches.
+void PetscSolver::find_floating()
+{
+  for_owned(grid_.owned(), [&](const Index3& c) {
     for (int side = 0; side < 6; ++side) {
       const Index3 face = side % 2 == 0 ? c : beside(c, side);
-      const Index3 other = beside(c, side);
-      if (number_(other[0], other[1], other[2]) < 0)
-        sums[3 * label + 2] += conductance_[side / 2](face[0], face[1], face[2]);
+      if (number_.view()(beside(c, side)) < 0 && conductance_[side / 2].view()(face) > 0.0)
+        floating_[component_of(c)] = 0;
     }
+  });
+  MPI_Allreduce(MPI_IN_PLACE, floating_.data(), static_cast<int>(floating_.size()), MPI_SIGNED_CHAR, MPI_MIN,
+                grid_.ranks().comm());
+}
+
+/// Subtracts the volume-weighted mean from floating components.
+void PetscSolver::remove_means(const View<double>& p)
+{
+  std::vector<double> sums(2 * floating_.size(), 0.0);
+  for_owned(grid_.owned(), [&](const Index3& c) {
+    const double volume = grid_.volume(c[0], c[1], c[2]);
+    sums[2 * component_of(c)] += volume * p(c);
+    sums[2 * component_of(c) + 1] += volume;
   });
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, grid_.ranks().comm());
   for_owned(grid_.owned(), [&](const Index3& c) {
-    const std::size_t label = component_(c[0], c[1], c[2]);
-    if (sums[3 * label + 2] == 0.0)
-      p(c) -= sums[3 * label] / sums[3 * label + 1];
+    const int n = component_of(c);
+    if (is_floating(n))
+      p(c) -= sums[2 * n] / sums[2 * n + 1];
   });
 }
 

@@ -80,6 +80,13 @@ class PressureSolver {
   /// U <- U - dt G p on all faces of owned cells, with the G of project(), for a p that is known.  The halo of p is
   /// filled by exchange; beyond Dirichlet sides it tells the pressure there, as for project().
   virtual void subtract_gradient(const View3<double>& U, const View<double>& p, double dt) = 0;
+
+  /// Connected parts of the fluid, the same numbers on every rank.
+  [[nodiscard]] virtual int components() const = 0;
+  /// Whether no Dirichlet side touches a component: it has no outlet.
+  [[nodiscard]] virtual bool is_floating(int component) const = 0;
+  /// Of an owned cell.
+  [[nodiscard]] virtual int component_of(const Index3& cell) const = 0;
 };
 
 struct SolverOptions {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <numbers>
-
 #include <Eigen/Geometry>
 
 #include "core/error.hpp"
 #include "simulation/build.hpp"
+#include "simulation/build_body.hpp"
 #include "simulation/build_mesh.hpp"
 #include "simulation/build_material.hpp"
 #include "simulation/refusal.hpp"
@@ -57,18 +56,6 @@ shell::Properties properties_of(const config::ShellOptions& options)
           .gravity = options.gravity};
 }
 
-shell::Motion motion_of(const config::VectorExpression& translation,
-                        const std::optional<config::RotationOptions>& rotation)
-{
-  shell::Motion motion;
-  motion.translation = [translation](const Vec3& X, double t) { return translation.evaluate(X, t); };
-  if (rotation)
-    motion.rotation = {rotation->axis, rotation->about, [angle = rotation->angle](double t) {
-                         return angle.evaluate(Vec3::Zero(), t) * std::numbers::pi / 180.0;
-                       }};
-  return motion;
-}
-
 shell::Support support_of(const config::SupportOptions& options, const surface::MarkedMesh& marked,
                           const std::string& what)
 {
@@ -77,7 +64,7 @@ shell::Support support_of(const config::SupportOptions& options, const surface::
     return surface::select_vertices(marked.mesh, where_of(options.where), what, marked.marks.sets);
   });
   if (options.motion)
-    support.motion = motion_of(options.motion->translation, options.motion->rotation);
+    support.motion = build_motion(options.motion->translation, options.motion->rotation);
   if (options.fixed) {
     support.kind = shell::SupportKind::Fixed;
     support.components = {false, false, false};
@@ -124,16 +111,6 @@ shell::Load load_of(const config::LoadOptions& options, const surface::MarkedMes
     return shell::Pressure{triangles, [p = *options.pressure](const Vec3& x, double t) { return p.evaluate(x, t); }};
   return shell::Traction{triangles,
                          [s = options.traction.value()](const Vec3& x, double t) { return s.evaluate(x, t); }};
-}
-
-RigidSheet build_rigid(const config::BodyOptions& options)
-{
-  surface::MarkedMesh marked = build_mesh(options.mesh, options.placement, fmt::format("body '{}'", options.name));
-  return {.name = options.name,
-          .mesh = std::move(marked.mesh),
-          .motion = motion_of(options.motion.translation, options.motion.rotation),
-          .moves = options.motion.type == config::MotionType::Prescribed,
-          .marks = std::move(marked.marks)};
 }
 
 shell::Piece build_piece(const config::ShellOptions& options, const surface::MarkedMesh& marked)
@@ -265,7 +242,7 @@ std::unique_ptr<Structure> build_structure(const config::Case& options)
 {
   std::vector<RigidSheet> rigid;
   for (const config::BodyOptions& body : options.bodies)
-    rigid.push_back(build_rigid(body));
+    rigid.push_back(build_rigid(body, options));
   Shells shells = build_shells(options, rigid);
   return std::make_unique<Structure>(std::move(shells), std::move(rigid));
 }

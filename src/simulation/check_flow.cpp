@@ -11,12 +11,12 @@
 
 namespace luff::simulation {
 
-namespace {
-
 bool sheets_may_end_on(config::SideType type)
 {
   return type == config::SideType::Symmetry || type == config::SideType::Slip || type == config::SideType::Periodic;
 }
+
+namespace {
 
 void check_sheet_inside(const config::Case& options, const SheetRange& sheet, std::span<const Vec3> positions)
 {

@@ -8,6 +8,9 @@
 
 namespace luff::simulation {
 
+/// Whether edges of sheets and of closed bodies may lie on a side.
+[[nodiscard]] bool sheets_may_end_on(config::SideType type);
+
 /// Refuses sheets that leave the domain or touch sides other than symmetry, slip and periodic ones.
 /// Throws InputError.
 void check_sheets_inside(const config::Case& options, const Structure& structure);

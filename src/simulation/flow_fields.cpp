@@ -38,7 +38,7 @@ double q_criterion(const Mat3& g)
 
 }  // namespace
 
-output::FlowSnapshot flow_snapshot(const fluid::FlowSolver& flow, std::span<const config::FlowField> what)
+output::FlowSnapshot flow_snapshot(const fluid::FlowSolver& flow, std::span<const config::FlowField> what, bool bodies)
 {
   const grid::Grid& grid = flow.grid();
   const auto u = views(flow.state().u);
@@ -65,6 +65,9 @@ output::FlowSnapshot flow_snapshot(const fluid::FlowSolver& flow, std::span<cons
         }));
         break;
     }
+  if (bodies)
+    snapshot.fields.push_back(cell_field(
+        "fluid", 1, grid.owned(), [&](const Index3& c) -> double { return flow.links().is_inside(c) ? 0.0 : 1.0; }));
   return snapshot;
 }
 

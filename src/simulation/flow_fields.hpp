@@ -12,9 +12,10 @@
 namespace luff::simulation {
 
 /// Velocity, pressure (physical), vorticity and Q = (|Omega|^2 - |S|^2)/2 in the owned cells; gradients by central
-/// differences along index directions.  Halos must be filled.
-[[nodiscard]] output::FlowSnapshot flow_snapshot(const fluid::FlowSolver& flow,
-                                                 std::span<const config::FlowField> what);
+/// differences along index directions.  With closed `bodies` also `fluid`, 0 in the cells inside them, 1 elsewhere and
+/// before the first step.  Halos must be filled.
+[[nodiscard]] output::FlowSnapshot flow_snapshot(const fluid::FlowSolver& flow, std::span<const config::FlowField> what,
+                                                 bool bodies = false);
 
 /// Velocity and physical pressure at a place of the grid (grid::locate), trilinear between cell centres.  Collective.
 struct PointSample {

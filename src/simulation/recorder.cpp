@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <numbers>
 
 #include <nlohmann/json.hpp>
 
@@ -46,6 +47,7 @@ std::vector<output::Column> step_columns()
                                       {"contact_energy", "energy"},
                                       {"contact_pairs", ""},
                                       {"smallest_gap", "length"},
+                                      {"leak", "velocity"},
                                       {"newton_iterations", ""}};
   for (const char* phase : phase_names)
     columns.push_back({std::string("seconds_") + phase, "s"});
@@ -121,14 +123,29 @@ void Recorder::open_tables(const output::EarlierOutput* earlier)
     fields_.emplace(folder_, "fields", earlier);
   for (const SheetRange& sheet : simulation_.structure().sheets()) {
     surfaces_.emplace_back(folder_, (sheet.deforms ? "shell-" : "body-") + sheet.name, earlier);
-    if (!options_.fluid)
+    if (options_.fluid)
+      open_table_of_forces(sheet, earlier);
+    if (sheet.deforms || options_.bodies[sheet.part].motion.type == config::MotionType::Fixed)
       continue;
     std::vector<output::Column> columns{{"t", "time"}};
-    for (const char* name : {"force", "force_minus", "force_plus"})
-      for (const output::Column& c : output::vector_columns(name, "force"))
+    for (const auto& [name, unit] : {std::pair("centre", "length"), std::pair("rotation", "degrees"),
+                                     std::pair("velocity", "velocity"), std::pair("spin", "rad/time")})
+      for (const output::Column& c : output::vector_columns(name, unit))
         columns.push_back(c);
-    forces_.emplace_back(folder_, "forces-" + sheet.name + ".csv", columns, earlier);
+    motions_.emplace_back(sheet.part, output::CsvWriter(folder_, "motion-" + sheet.name + ".csv", columns, earlier));
   }
+}
+
+void Recorder::open_table_of_forces(const SheetRange& sheet, const output::EarlierOutput* earlier)
+{
+  std::vector<output::Column> columns{{"t", "time"}};
+  for (const char* name : {"force", "force_minus", "force_plus"})
+    for (const output::Column& c : output::vector_columns(name, "force"))
+      columns.push_back(c);
+  if (!sheet.deforms)
+    for (const output::Column& c : output::vector_columns("moment", "moment"))
+      columns.push_back(c);
+  forces_.emplace_back(folder_, "forces-" + sheet.name + ".csv", columns, earlier);
 }
 
 void Recorder::open_probe(const config::ProbeOptions& options, const output::EarlierOutput* earlier)
@@ -187,7 +204,8 @@ bool Recorder::record(const StepRecord& record)
   warn_about_limits(record);
   {
     const auto timer = simulation_.profile().time(Phase::Output);
-    write_forces(t);
+    write_forces(t, record.step.dt);
+    write_motions(t, record.step.dt);
     write_probes(t, record.step.dt);
     write_snapshots(t, record.step.dt, /*last=*/false);
   }
@@ -220,9 +238,10 @@ void Recorder::write_steps(const StepRecord& record)
                           energy.external_work,
                           energy.support_work};
   append_contact(row);
+  auto* flow = simulation_.surroundings().flow();
+  row.push_back(flow ? flow->balance().leak() : nothing);
   row.push_back(double(simulation_.structure().newton_iterations() - newton_iterations_));
   newton_iterations_ = simulation_.structure().newton_iterations();
-  auto* flow = simulation_.surroundings().flow();
   for (std::size_t n = 0; n < phase_names.size(); ++n) {
     const double seconds = simulation_.profile().all()[n] + (flow ? flow->profile().all()[n] : 0.0);
     row.push_back(seconds);
@@ -280,21 +299,41 @@ void Recorder::warn_about_limits(const StepRecord& record)
         record.step.index, record.step.t_new, cfl, fluid::convective_limit, diffusion, fluid::diffusive_limit);
 }
 
-void Recorder::write_forces(double t)
+/// Moments of rigid sheets are about their centres.
+void Recorder::write_forces(double t, double dt)
 {
-  const auto& sheets = simulation_.structure().sheets();
+  const Structure& structure = simulation_.structure();
+  const auto& sheets = structure.sheets();
+  const std::vector<Vec3> positions = structure.accepted_positions(t);
   const immersed::SheetLoads& loads = simulation_.structure().loads();
   for (std::size_t s = 0; s < forces_.size(); ++s) {
     Vec3 minus = Vec3::Zero();
     Vec3 plus = Vec3::Zero();
+    Vec3 moment = Vec3::Zero();
+    const Vec3 centre = sheets[s].deforms ? Vec3(Vec3::Zero()) : structure.body_motion(sheets[s].part, t, dt).centre;
     for (int v = sheets[s].first_vertex; v < sheets[s].first_vertex + sheets[s].vertices; ++v) {
       minus += loads.minus[v];
       plus += loads.plus[v];
+      moment += (positions[v] - centre).cross(loads.force(v));
     }
     std::vector<double> row{t};
     for (const Vec3& force : {Vec3(minus + plus), minus, plus})
       append(row, force);
+    if (!sheets[s].deforms)
+      append(row, moment);
     forces_[s].row(row);
+  }
+}
+
+void Recorder::write_motions(double t, double dt)
+{
+  for (auto& [part, table] : motions_) {
+    const BodyMotion motion = simulation_.structure().body_motion(part, t, dt);
+    std::vector<double> row{t};
+    for (const Vec3& v :
+         {motion.centre, Vec3(180.0 / std::numbers::pi * motion.rotation), motion.velocity, motion.spin})
+      append(row, v);
+    table.row(row);
   }
 }
 
@@ -329,7 +368,7 @@ void Recorder::write_snapshots(double t, double dt, bool last)
   if (fields_ && fields_due_.due(t, last)) {
     auto* flow = simulation_.surroundings().flow();
     flow->fill_halos();
-    fields_->write(t, flow_snapshot(*flow, options_.output.fields->what));
+    fields_->write(t, flow_snapshot(*flow, options_.output.fields->what, simulation_.structure().has_closed_bodies()));
   }
   if (options_.output.shells && shells_due_.due(t, last)) {
     write_shells(t, dt);
@@ -389,7 +428,7 @@ void Recorder::show_progress(const StepRecord& record)
     line.cfl = record.rates.convective * record.step.dt;
     line.pressure_iterations = record.flow.pressure_iterations;
   }
-  if (!options_.shells.empty() && options_.fluid)
+  if (simulation_.structure().answers_flow() && options_.fluid)
     line.coupling_iterations = record.coupling.iterations;
   if (!probes_.empty()) {
     line.probe_name = probes_.front().name + "_y";
@@ -433,6 +472,8 @@ std::vector<const output::CsvWriter*> Recorder::tables() const
 {
   std::vector<const output::CsvWriter*> all{&*steps_};
   for (const output::CsvWriter& table : forces_)
+    all.push_back(&table);
+  for (const auto& [part, table] : motions_)
     all.push_back(&table);
   for (const Probe& probe : probes_)
     all.push_back(probe.csv.get());
@@ -529,10 +570,12 @@ void Recorder::finish(Ending ending, const std::string& reason)
     summary["mean_pressure_iterations"] = tally_.pressure_iterations / steps;
     summary["microseconds_per_cell_and_step"] = 1e6 * tally_.seconds_stepping / (double(cells) * steps);
   }
-  if (!options_.shells.empty()) {
+  if (simulation_.structure().answers_flow()) {
     summary["mean_coupling_iterations"] = tally_.coupling_iterations / steps;
     summary["max_coupling_iterations"] = tally_.most_coupling_iterations;
     summary["halved_steps"] = tally_.halvings;
+  }
+  if (!options_.shells.empty()) {
     summary["mean_newton_iterations"] = double(simulation_.structure().newton_iterations()) / steps;
     summary["folds_above_45_degrees"] = simulation_.structure().sharp_folds();
     summary["triangles_on_a_conic"] = simulation_.structure().shells().shell->n_hinge_patches();

@@ -63,7 +63,9 @@ class Recorder {
   void append_contact(std::vector<double>& row);
   void count_crossings();
   void report_contact(nlohmann::ordered_json& summary) const;
-  void write_forces(double t);
+  void open_table_of_forces(const SheetRange& sheet, const output::EarlierOutput* earlier);
+  void write_forces(double t, double dt);
+  void write_motions(double t, double dt);
   void write_probes(double t, double dt);
   void write_snapshots(double t, double dt, bool last);
   void write_shells(double t, double dt);
@@ -86,6 +88,7 @@ class Recorder {
   std::optional<output::FlowSeries> fields_;
   std::vector<output::SurfaceSeries> surfaces_;
   std::vector<output::CsvWriter> forces_;
+  std::vector<std::pair<int, output::CsvWriter>> motions_;  ///< of rigid sheets that move, by number
   std::optional<output::CsvWriter> steps_;
   std::vector<Probe> probes_;
 

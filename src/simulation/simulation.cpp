@@ -82,7 +82,7 @@ void Simulation::reject(const TimeStep& step, const coupling::FixedPointReport& 
 {
   if (clock_.rejections() >= policy_.halvings || report.outcome == coupling::FixedPointOutcome::NotFinite)
     fail_run(
-        "step {}, t = {:.6g}: the coupling of flow and shell did not converge: residual {:.2e} after {} iterations "
+        "step {}, t = {:.6g}: the coupling of flow and structure did not converge: residual {:.2e} after {} iterations "
         "(tolerance {:.1e}), largest at {}, the step halved {} times; a smaller time.step, coupling.acceleration = "
         "\"aitken\" with a smaller coupling.relaxation, or more coupling.max_iterations may help",
         step.index, step.t_new, report.residual, report.iterations, policy_.criterion.tolerance,

@@ -44,8 +44,15 @@ Structure::Structure(Shells shells, std::vector<RigidSheet> rigid)
     length_ = shells_.shell->size();
   }
   part = 0;
-  for (const RigidSheet& sheet : rigid_)
+  first_rigid_vertex_ = vertices_;
+  for (const RigidSheet& sheet : rigid_) {
     add_sheet(sheet.name, false, part++, sheet.mesh, sheet.marks);
+    if (!sheet.free)
+      continue;
+    const double size = sheet.free->properties().length;
+    length_ = answers_flow() ? std::max(length_, size) : size;
+    ++n_free_;
+  }
   const std::vector<Vec3> none(vertices_, Vec3::Zero());
   loads_ = {none, none};
 }
@@ -68,29 +75,90 @@ void Structure::add_sheet(const std::string& name, bool deforms, int part, const
   sheets_.push_back(std::move(sheet));
 }
 
+template <class Sheets, class Visit>
+void Structure::for_each_free(Sheets& rigid, int first_vertex, Visit visit)
+{
+  int n = 0;
+  for (auto& sheet : rigid) {
+    if (sheet.free)
+      visit(sheet, first_vertex, n++);
+    first_vertex += sheet.mesh.n_vertices();
+  }
+}
+
+Eigen::Index Structure::shell_unknowns() const
+{
+  return shells_.dynamics ? Eigen::Index{3} * shells_.shell->n_vertices() : 0;
+}
+
+Vec6 Structure::body_part(const Eigen::VectorXd& d, int n) const
+{
+  return d.segment<6>(shell_unknowns() + Eigen::Index{6} * n);
+}
+
 Eigen::VectorXd Structure::predict(const TimeStep& step) const
 {
-  return shells_.dynamics ? shells_.dynamics->predicted_positions(step.dt) : Eigen::VectorXd();
+  Eigen::VectorXd d(shell_unknowns() + Eigen::Index{6} * n_free_);
+  if (shells_.dynamics)
+    d.head(shell_unknowns()) = shells_.dynamics->predicted_positions(step.dt);
+  for_each_free(rigid_, first_rigid_vertex_, [&](const RigidSheet& sheet, int, int n) {
+    d.segment<6>(shell_unknowns() + Eigen::Index{6} * n) = sheet.free->predict(step.dt);
+  });
+  return d;
 }
+
+namespace {
+
+void append_prescribed(immersed::SheetMotion& motion, const RigidSheet& sheet, const TimeStep& step)
+{
+  for (const Vec3& x_0 : sheet.mesh.vertices) {
+    const shell::Rates r =
+        sheet.moves ? sheet.motion.rates(x_0, step.t_new, step.dt) : shell::Rates{Vec3::Zero(), Vec3::Zero()};
+    motion.position.push_back(sheet.moves ? sheet.motion.position(x_0, step.t_new) : x_0);
+    motion.velocity.push_back(r.velocity);
+    motion.acceleration.push_back(r.acceleration);
+  }
+}
+
+/// The acceleration is the mean of the step.
+void append_free(immersed::SheetMotion& motion, const RigidSheet& sheet, const Vec6& d, const TimeStep& step)
+{
+  const RigidState& before = sheet.free->accepted();
+  const RigidState after = sheet.free->state(d, step.dt);
+  for (const Vec3& x_0 : sheet.mesh.vertices) {
+    const Vec3 arm = x_0 - sheet.centre;
+    motion.position.push_back(after.position(arm));
+    motion.velocity.push_back(after.velocity_of(arm));
+    motion.acceleration.emplace_back((after.velocity_of(arm) - before.velocity_of(arm)) / step.dt);
+  }
+}
+
+}  // namespace
 
 immersed::SheetMotion Structure::motion(const Eigen::VectorXd& d, const TimeStep& step) const
 {
   immersed::SheetMotion motion;
   motion.triangles = triangles_;
-  append(motion.position, d);
   if (shells_.dynamics) {
-    const shell::Kinematics k = shells_.dynamics->kinematics(d, step.dt);
+    const Eigen::VectorXd x = d.head(shell_unknowns());
+    append(motion.position, x);
+    const shell::Kinematics k = shells_.dynamics->kinematics(x, step.dt);
     append(motion.velocity, k.v);
     append(motion.acceleration, k.a);
   }
-  for (const RigidSheet& sheet : rigid_)
-    for (const Vec3& x_0 : sheet.mesh.vertices) {
-      const shell::Rates r =
-          sheet.moves ? sheet.motion.rates(x_0, step.t_new, step.dt) : shell::Rates{Vec3::Zero(), Vec3::Zero()};
-      motion.position.push_back(sheet.moves ? sheet.motion.position(x_0, step.t_new) : x_0);
-      motion.velocity.push_back(r.velocity);
-      motion.acceleration.push_back(r.acceleration);
-    }
+  int n_free = 0;
+  for (const RigidSheet& sheet : rigid_) {
+    if (sheet.free)
+      append_free(motion, sheet, body_part(d, n_free++), step);
+    else
+      append_prescribed(motion, sheet, step);
+  }
+  for (const SheetRange& sheet : sheets_)
+    if (!sheet.deforms && rigid_[sheet.part].closed)
+      motion.bodies.push_back({.first_vertex = sheet.first_vertex,
+                               .vertices = sheet.vertices,
+                               .first_triangle = sheet.first_triangle,
+                               .triangles = sheet.triangles});
   return motion;
 }
 
@@ -108,20 +176,43 @@ Eigen::VectorXd Structure::forces_on_shells() const
   return force;
 }
 
+/// Of the flow on a free body, about its centre.
+Wrench Structure::wrench(int first_vertex, const RigidSheet& sheet, const RigidState& state) const
+{
+  Wrench sum;
+  for (int v = 0; v < sheet.mesh.n_vertices(); ++v) {
+    const Vec3 force = loads_.force(first_vertex + v);
+    sum.force += force;
+    sum.moment += (state.turn * (sheet.mesh.vertices[v] - sheet.centre)).cross(force);
+  }
+  return sum;
+}
+
 Eigen::VectorXd Structure::solve(const TimeStep& step, const immersed::SheetLoads& loads, const Eigen::VectorXd& d)
 {
   loads_ = loads;
-  if (!shells_.dynamics)
-    return d;
-  shell::Dynamics::Trial trial = shells_.dynamics->solve(step.t_new, step.dt, forces_on_shells(), d);
-  newton_iterations_ += trial.report.iterations;
-  return std::move(trial.positions);
+  Eigen::VectorXd image = d;
+  if (shells_.dynamics) {
+    const shell::Dynamics::Trial trial =
+        shells_.dynamics->solve(step.t_new, step.dt, forces_on_shells(), d.head(shell_unknowns()));
+    newton_iterations_ += trial.report.iterations;
+    image.head(shell_unknowns()) = trial.positions;
+  }
+  for_each_free(rigid_, first_rigid_vertex_, [&](const RigidSheet& sheet, int first_vertex, int n) {
+    const Wrench flow = wrench(first_vertex, sheet, sheet.free->state(body_part(d, n), step.dt));
+    image.segment<6>(shell_unknowns() + Eigen::Index{6} * n) = sheet.free->solve(flow, step.dt);
+  });
+  return image;
 }
 
 void Structure::accept(const TimeStep& step, const Eigen::VectorXd& d)
 {
   if (shells_.dynamics)
-    sharp_folds_ += shells_.dynamics->accept(d, step.t_new, step.dt, forces_on_shells()).n_sharp;
+    sharp_folds_ += shells_.dynamics->accept(d.head(shell_unknowns()), step.t_new, step.dt, forces_on_shells()).n_sharp;
+  for_each_free(rigid_, first_rigid_vertex_, [&](RigidSheet& sheet, int first_vertex, int n) {
+    const Vec6 own = body_part(d, n);
+    sheet.free->accept(own, wrench(first_vertex, sheet, sheet.free->state(own, step.dt)), step.dt);
+  });
 }
 
 void Structure::restore(const shell::Checkpoint& shells, long newton_iterations, long sharp_folds)
@@ -138,8 +229,12 @@ std::vector<Vec3> Structure::accepted_positions(double t) const
   if (shells_.dynamics)
     append(positions, shells_.dynamics->accepted().x);
   for (const RigidSheet& sheet : rigid_)
-    for (const Vec3& x_0 : sheet.mesh.vertices)
-      positions.push_back(sheet.moves ? sheet.motion.position(x_0, t) : x_0);
+    for (const Vec3& x_0 : sheet.mesh.vertices) {
+      if (sheet.free)
+        positions.push_back(sheet.free->accepted().position(x_0 - sheet.centre));
+      else
+        positions.push_back(sheet.moves ? sheet.motion.position(x_0, t) : x_0);
+    }
   return positions;
 }
 
@@ -149,9 +244,37 @@ std::vector<Vec3> Structure::accepted_velocities(double t, double dt) const
   if (shells_.dynamics)
     append(velocities, shells_.dynamics->accepted().v);
   for (const RigidSheet& sheet : rigid_)
-    for (const Vec3& x_0 : sheet.mesh.vertices)
-      velocities.push_back(sheet.moves ? sheet.motion.rates(x_0, t, dt).velocity : Vec3(Vec3::Zero()));
+    for (const Vec3& x_0 : sheet.mesh.vertices) {
+      if (sheet.free)
+        velocities.push_back(sheet.free->accepted().velocity_of(x_0 - sheet.centre));
+      else
+        velocities.push_back(sheet.moves ? sheet.motion.rates(x_0, t, dt).velocity : Vec3(Vec3::Zero()));
+    }
   return velocities;
+}
+
+BodyMotion Structure::body_motion(int part, double t, double dt) const
+{
+  const RigidSheet& sheet = rigid_[part];
+  const auto rotation_vector = [](const auto& turn) -> Vec3 {
+    const Eigen::AngleAxisd rotation(turn);
+    return rotation.angle() * rotation.axis();
+  };
+  if (sheet.free) {
+    const RigidState& state = sheet.free->accepted();
+    return {state.centre, rotation_vector(state.turn), state.velocity, state.spin};
+  }
+  if (!sheet.moves)
+    return {.centre = sheet.centre};
+  std::vector<Vec3> points;
+  std::vector<Vec3> velocities;
+  for (const Vec3& x_0 : sheet.mesh.vertices) {
+    points.push_back(sheet.motion.position(x_0, t));
+    velocities.push_back(sheet.motion.rates(x_0, t, dt).velocity);
+  }
+  const immersed::RigidVelocity rigid = immersed::nearest_rigid_velocity(points, velocities);
+  const Vec3 centre = sheet.motion.position(sheet.centre, t);
+  return {centre, rotation_vector(sheet.motion.turn(t)), rigid.at(centre), rigid.spin};
 }
 
 std::string Structure::place_of(const Eigen::VectorXd& d) const
@@ -160,6 +283,15 @@ std::string Structure::place_of(const Eigen::VectorXd& d) const
   for (Eigen::Index n = 1; n < d.size() && std::isfinite(d[worst]); ++n)
     if (!(std::abs(d[n]) <= std::abs(d[worst])))
       worst = n;
+  if (worst >= shell_unknowns()) {
+    std::string place;
+    for_each_free(rigid_, first_rigid_vertex_, [&](const RigidSheet& sheet, int, int n) {
+      const Vec3& x = sheet.free->accepted().centre;
+      if (n == (worst - shell_unknowns()) / 6)
+        place = fmt::format("body '{}' at ({:.4g}, {:.4g}, {:.4g})", sheet.name, x[0], x[1], x[2]);
+    });
+    return place;
+  }
   const int vertex = static_cast<int>(worst / 3);
   const shell::PieceRange& piece = shells_.shell->piece_of_vertex(vertex);
   const Vec3 x = shells_.dynamics->accepted().x.segment<3>(3 * vertex);

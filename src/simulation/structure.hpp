@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Everything that moves in the flow, seen as one set of vertices: shells that the flow bends, sheets that move as
-// prescribed.
+// Everything that moves in the flow, seen as one set of vertices: shells that the flow bends, rigid bodies, thin or
+// closed, that move as prescribed or as the flow moves them.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "immersed/cut_links.hpp"
 #include "immersed/loads.hpp"
 #include "shell/dynamics.hpp"
+#include "simulation/rigid_body.hpp"
 #include "surface/marked_mesh.hpp"
 
 namespace luff::simulation {
@@ -26,13 +29,24 @@ struct Shells {
   std::vector<surface::Marks> marks = {};  ///< of each piece's mesh; may be left out
 };
 
-/// A thin rigid sheet whose place is given for all times.
+/// A rigid thin sheet or closed body, whose place is given for all times, or which the flow moves.
 struct RigidSheet {
   std::string name;
   surface::TriangleMesh mesh;  ///< at t = 0
   shell::Motion motion;
-  bool moves = false;
+  bool moves = false;  ///< as `motion` says
   surface::Marks marks = {};
+  bool closed = false;                 ///< there is no fluid inside; normals point outwards
+  std::optional<RigidBody> free = {};  ///< the flow moves it
+  Vec3 centre = Vec3::Zero();          ///< at t = 0, for tables: of mass, of volume, or of the vertices
+};
+
+/// How a rigid body moves, for tables.
+struct BodyMotion {
+  Vec3 centre = Vec3::Zero();
+  Vec3 rotation = Vec3::Zero();  ///< rotation vector from t = 0 [rad]
+  Vec3 velocity = Vec3::Zero();  ///< of the centre
+  Vec3 spin = Vec3::Zero();
 };
 
 /// Part of the vertices and triangles of all sheets together.
@@ -48,23 +62,24 @@ struct SheetRange {
   int triangles = 0;
 };
 
-/// Shells first, then rigid sheets.  The interface vector d holds the positions of the shells' vertices; velocities
-/// follow from it through the scheme of the shells, so that both stay consistent.
+/// Shells first, then rigid sheets.  The interface vector d holds the positions of the shells' vertices, then six
+/// numbers of each free body (see RigidBody); velocities follow from it through the scheme of each, so that both stay
+/// consistent.
 class Structure {
  public:
   Structure(Shells shells, std::vector<RigidSheet> rigid);
 
   /// d^0, extrapolated to the end of the step.
   [[nodiscard]] Eigen::VectorXd predict(const TimeStep& step) const;
-  /// Position, velocity and acceleration of all vertices at t_new, with the shells at d.
+  /// Position, velocity and acceleration of all vertices at t_new, with shells and free bodies at d.
   [[nodiscard]] immersed::SheetMotion motion(const Eigen::VectorXd& d, const TimeStep& step) const;
   /// Velocity of all vertices at t_new.
   [[nodiscard]] std::vector<Vec3> velocity(const Eigen::VectorXd& d, const TimeStep& step) const;
-  /// Where the shells come to rest in the step under the forces of the flow (one per vertex of all sheets), from the
-  /// accepted state; Newton starts from d.
+  /// Where shells and free bodies come to rest in the step under the forces of the flow (one per vertex of all sheets),
+  /// from the accepted state; Newton starts from d.
   [[nodiscard]] Eigen::VectorXd solve(const TimeStep& step, const immersed::SheetLoads& loads,
                                       const Eigen::VectorXd& d);
-  /// Commits the shells' positions d.
+  /// Commits d.
   void accept(const TimeStep& step, const Eigen::VectorXd& d);
 
   [[nodiscard]] const std::vector<SheetRange>& sheets() const { return sheets_; }
@@ -76,7 +91,16 @@ class Structure {
   /// Positions of all vertices at time t in the accepted state.
   [[nodiscard]] std::vector<Vec3> accepted_positions(double t) const;
   [[nodiscard]] std::vector<Vec3> accepted_velocities(double t, double dt) const;
-  /// Length that makes displacements relative: the largest shell's size, 1 without shells.
+  /// How rigid sheet `part` moves in the accepted state at t.
+  [[nodiscard]] BodyMotion body_motion(int part, double t, double dt) const;
+  [[nodiscard]] const std::vector<RigidSheet>& rigid() const { return rigid_; }
+  [[nodiscard]] bool has_closed_bodies() const
+  {
+    return std::any_of(rigid_.begin(), rigid_.end(), [](const RigidSheet& sheet) { return sheet.closed; });
+  }
+  /// Whether d has any entries: something answers the flow.
+  [[nodiscard]] bool answers_flow() const { return shells_.dynamics != nullptr || n_free_ > 0; }
+  /// Length that makes displacements relative: the size of the largest shell or free body, 1 without any.
   [[nodiscard]] double length() const { return length_; }
   /// The vertex with the largest component of an interface vector, or the first that is no number, in words.
   [[nodiscard]] std::string place_of(const Eigen::VectorXd& d) const;
@@ -97,12 +121,21 @@ class Structure {
   void add_sheet(const std::string& name, bool deforms, int part, const surface::TriangleMesh& reference,
                  const surface::Marks& marks);
   [[nodiscard]] Eigen::VectorXd forces_on_shells() const;
+  [[nodiscard]] Eigen::Index shell_unknowns() const;
+  /// The part of d that belongs to the n-th free body.
+  [[nodiscard]] Vec6 body_part(const Eigen::VectorXd& d, int n) const;
+  [[nodiscard]] Wrench wrench(int first_vertex, const RigidSheet& sheet, const RigidState& state) const;
+  /// visit(sheet, first vertex, number among the free bodies)
+  template <class Sheets, class Visit>
+  static void for_each_free(Sheets& rigid, int first_vertex, Visit visit);
 
   Shells shells_;
   std::vector<RigidSheet> rigid_;
   std::vector<SheetRange> sheets_;
   std::vector<std::array<int, 3>> triangles_;
   int vertices_ = 0;
+  int first_rigid_vertex_ = 0;
+  int n_free_ = 0;
   double length_ = 1.0;
   immersed::SheetLoads loads_;
   long newton_iterations_ = 0;

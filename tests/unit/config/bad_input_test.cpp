@@ -256,16 +256,13 @@ const BadInput rules[] = {
      "case.toml:25: shell.material.a12 = 3 must be small enough, with `a13` and `a23`, for a positive definite matrix "
      "(a12^2 < a11 a22), or some strain would cost no energy"},
     {"AWordThatDecidesIsMisspelt", "type = \"prescribed\"", "type = \"prescibed\"",
-     "case.toml:35: body.motion.type = \"prescibed\" must be \"fixed\" or \"prescribed\" (did you mean "
-     "\"prescribed\"?)"},
+     "case.toml:35: body.motion.type = \"prescibed\" must be \"fixed\", \"prescribed\" or \"free\" (did "
+     "you mean \"prescribed\"?)"},
 };
 
 const BadInput not_yet[] = {
     {"ATimeScheme", "step = 0.01", "step = 0.01\nscheme = \"sbdf2\"",
      "case.toml:5: time.scheme = \"sbdf2\" is known but not available in this version; it must be \"rk3\""},
-    {"AMotion", "type = \"prescribed\", translation = [\"cos(t)\", 0, 0]", "type = \"free\"",
-     "case.toml:35: body.motion.type = \"free\" is known but not available in this version; it must be \"fixed\" or "
-     "\"prescribed\""},
     {"Turbulence", "viscosity = 0.01", "viscosity = 0.01\nturbulence = { model = \"smagorinsky\" }",
      "case.toml:8: fluid.turbulence is not available in this version (available here: density, viscosity, body_force, "
      "initial)"},
