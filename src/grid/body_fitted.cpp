@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "grid/body_fitted.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <limits>
 

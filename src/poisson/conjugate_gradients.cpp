@@ -126,7 +126,10 @@ double ConjugateGradients::advance_direction(float beta)
   const int threads = threads_for(owned);
   const int prepared = cross_terms_ != nullptr ? 2 : 1;
   const auto stage = [&](int s, int k) { s == 0 ? direction(k) : s < prepared ? prepare(k) : image(k); };
-  if (level.exchange().within_planes()) {
+  const bool wave = level.exchange().within_planes();
+  if (cross_terms_ != nullptr)
+    cross_terms_->keep_all_planes(!wave || threads > 1);
+  if (wave) {
     run_stages(owned.lo[2], owned.hi[2], prepared + 1, threads, stage);
   } else {
     run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { direction(k); });

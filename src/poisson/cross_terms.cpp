@@ -82,9 +82,9 @@ void CrossTerms::cross_row(int j, int k, int colour, const float* values)
   const float* __restrict g_xy = g_[0].data() + s.own;
   const float* __restrict g_xz = g_[1].data() + s.own;
   const float* __restrict g_yz = g_[2].data() + s.own;
-  float* __restrict w_x = w_[0].data() + s.own;
-  float* __restrict w_y = w_[1].data() + s.own;
-  float* __restrict w_z = w_[2].data() + s.own;
+  float* __restrict w_x = w(0, k) + s.own;
+  float* __restrict w_y = w(1, k) + s.own;
+  float* __restrict w_z = w(2, k) + s.own;
 #pragma omp simd
   for (int n = 0; n < s.count; ++n) {
     const float x = dx(n, own[n]);
@@ -111,10 +111,10 @@ void CrossTerms::cross_row_across(int axis, int j, int k, int colour, const floa
   const float* __restrict own = values + s.own;
   const float* __restrict g_x = g_[axis == 1 ? 0 : 1].data() + s.own;
   const float* __restrict g_other = g_[2].data() + s.own;
-  float* __restrict w = w_[axis].data() + s.own;
+  float* __restrict out = w(axis, k) + s.own;
 #pragma omp simd
   for (int n = 0; n < s.count; ++n)
-    w[n] = g_x[n] * dx(n, own[n]) + g_other[n] * d(n, own[n]);
+    out[n] = g_x[n] * dx(n, own[n]) + g_other[n] * d(n, own[n]);
 }
 
 /// The other half of the difference to p = 0 at the ends of a row.
@@ -128,8 +128,8 @@ void CrossTerms::add_ends(int j, int k, const float* values)
     if (!(level_.coefficients().face(0, {i + side, j, k}) > 0.0))
       continue;
     const float d = (side == 0 ? 0.5f : -0.5f) * values[q];
-    w_[1][q] += g_[0][q] * d;
-    w_[2][q] += g_[1][q] * d;
+    w(1, k)[q] += g_[0][q] * d;
+    w(2, k)[q] += g_[1][q] * d;
   }
 }
 
@@ -138,9 +138,9 @@ void CrossTerms::close_row(int j, int k)
 {
   const int n = cells_[0];
   const bool periodic = beyond_[0][0] == Beyond::Cells;
-  Values& w = w_[0];
-  w[layout_.index(-1, j, k)] = w[layout_.index(periodic ? n - 1 : 0, j, k)];
-  w[layout_.index(n, j, k)] = w[layout_.index(periodic ? 0 : n - 1, j, k)];
+  float* const along = w(0, k);
+  along[layout_.index(-1, j, k)] = along[layout_.index(periodic ? n - 1 : 0, j, k)];
+  along[layout_.index(n, j, k)] = along[layout_.index(periodic ? 0 : n - 1, j, k)];
 }
 
 void CrossTerms::prepare_plane(int k, const float* values)
@@ -166,16 +166,9 @@ void CrossTerms::prepare_plane(int k, const float* values)
   }
 }
 
-/// Where w_a beside a cell is found: in the cell itself at sides of the domain.
-std::ptrdiff_t CrossTerms::beside(const Stencil& s, int axis, int side, int index) const
-{
-  const int end = side == 0 ? 0 : cells_[axis] - 1;
-  if (beyond_[axis][side] != Beyond::Cells && index == end)
-    return s.own;
-  return axis == 1 ? (side == 0 ? s.j_low : s.j_high) : (side == 0 ? s.k_low : s.k_high);
-}
-
-double CrossTerms::apply_plane(int k, const float* p, float* q) const
+/// At sides of the domain w beyond is that of the cell itself.
+template <int sign>
+double CrossTerms::add_plane(int k, const float* p, float* q) const
 {
   const StoredCoefficients& a = level_.coefficients();
   double sum = 0.0;
@@ -188,15 +181,15 @@ double CrossTerms::apply_plane(int k, const float* p, float* q) const
       const float* __restrict y_high = a.face(1) + s.j_high;
       const float* __restrict z_low = a.face(2) + s.own;
       const float* __restrict z_high = a.face(2) + s.k_high;
-      const float* __restrict wx = w_[0].data() + s.own;
-      const float* __restrict wx_low = w_[0].data() + s.left;
-      const float* __restrict wx_high = w_[0].data() + s.right;
-      const float* __restrict wy = w_[1].data() + s.own;
-      const float* __restrict wy_low = w_[1].data() + beside(s, 1, 0, j);
-      const float* __restrict wy_high = w_[1].data() + beside(s, 1, 1, j);
-      const float* __restrict wz = w_[2].data() + s.own;
-      const float* __restrict wz_low = w_[2].data() + beside(s, 2, 0, k);
-      const float* __restrict wz_high = w_[2].data() + beside(s, 2, 1, k);
+      const float* __restrict wx = w(0, k) + s.own;
+      const float* __restrict wx_low = w(0, k) + s.left;
+      const float* __restrict wx_high = w(0, k) + s.right;
+      const float* __restrict wy = w(1, k) + s.own;
+      const float* __restrict wy_low = at_side(1, 0, j) ? wy : w(1, k) + s.j_low;
+      const float* __restrict wy_high = at_side(1, 1, j) ? wy : w(1, k) + s.j_high;
+      const float* __restrict wz = w(2, k) + s.own;
+      const float* __restrict wz_low = at_side(2, 0, k) ? wz : w(2, k - 1) + s.k_low;
+      const float* __restrict wz_high = at_side(2, 1, k) ? wz : w(2, k + 1) + s.k_high;
       const float* __restrict own = p + s.own;
       float* __restrict out = q + s.own;
       float part = 0.0f;
@@ -205,7 +198,7 @@ double CrossTerms::apply_plane(int k, const float* p, float* q) const
         const float x = (x_low[n] > 0.0f ? wx[n] + wx_low[n] : 0.0f) - (x_high[n] > 0.0f ? wx[n] + wx_high[n] : 0.0f);
         const float y = (y_low[n] > 0.0f ? wy[n] + wy_low[n] : 0.0f) - (y_high[n] > 0.0f ? wy[n] + wy_high[n] : 0.0f);
         const float z = (z_low[n] > 0.0f ? wz[n] + wz_low[n] : 0.0f) - (z_high[n] > 0.0f ? wz[n] + wz_high[n] : 0.0f);
-        const float value = 0.5f * (x + y + z);
+        const float value = 0.5f * sign * (x + y + z);
         out[n] += value;
         part += value * own[n];
       }
@@ -213,5 +206,8 @@ double CrossTerms::apply_plane(int k, const float* p, float* q) const
     }
   return sum;
 }
+
+template double CrossTerms::add_plane<1>(int, const float*, float*) const;
+template double CrossTerms::add_plane<-1>(int, const float*, float*) const;
 
 }  // namespace luff::poisson

@@ -20,24 +20,47 @@ class CrossTerms {
   /// Those of cells beyond the edges of this rank's block.  Collective.
   void close();
 
+  /// Keeps w on the latest planes only, which then stay in cache: for one thread that applies plane k right after it
+  /// prepared plane k + 1; or on all planes.
+  void keep_all_planes(bool all) { slots_ = all ? 0 : ring; }
   /// w on plane k, from values with halo, edges included; across the edges of the block too.
   void prepare_plane(int k, const float* values);
   /// q += cross terms on plane k, from w on planes k - 1 ... k + 1; returns the sum of p times what was added.
-  double apply_plane(int k, const float* p, float* q) const;
+  double apply_plane(int k, const float* p, float* q) const { return add_plane<1>(k, p, q); }
+  /// q -= the same.
+  void subtract_plane(int k, const float* p, float* q) const { (void)add_plane<-1>(k, p, q); }
+  [[nodiscard]] float value(int pair, const Index3& cell) const { return g_[pair][layout_.index(cell)]; }
+  [[nodiscard]] Values& values(int pair) { return g_[pair]; }
 
  private:
   /// What lies beyond the block at both ends of an axis.
   enum class Beyond { Cells, Wall, Pressure };
+  template <int sign>
+  double add_plane(int k, const float* p, float* q) const;
   void cross_row(int j, int k, int colour, const float* values);
   void cross_row_across(int axis, int j, int k, int colour, const float* values);
   void add_ends(int j, int k, const float* values);
   void close_row(int j, int k);
   /// Differences to p = 0 on a side are twice those to the value beyond, which is zero.
   [[nodiscard]] float half(int axis, int side, int index) const;
-  [[nodiscard]] std::ptrdiff_t beside(const Stencil& s, int axis, int side, int index) const;
+  [[nodiscard]] bool at_side(int axis, int side, int index) const
+  {
+    return beyond_[axis][side] != Beyond::Cells && index == (side == 0 ? 0 : cells_[axis] - 1);
+  }
+
+  static constexpr int ring = 4;
+  /// Such that w()[place] is w_a at a place on plane k.
+  [[nodiscard]] std::ptrdiff_t shift(int k) const
+  {
+    const int plane = k - layout_.owned.lo[2] + 1;
+    return slots_ == 0 ? 0 : (plane % slots_ - plane) * layout_.plane;
+  }
+  [[nodiscard]] float* w(int axis, int k) { return w_[axis].data() + shift(k); }
+  [[nodiscard]] const float* w(int axis, int k) const { return w_[axis].data() + shift(k); }
 
   Level& level_;
   Layout layout_;
+  int slots_ = 0;
   Index3 cells_{};
   std::array<std::array<Beyond, 2>, 3> beyond_{};
   std::array<Values, 3> g_;

@@ -2,6 +2,7 @@
 #include "poisson/curvilinear_operator.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace luff::poisson {
 
@@ -134,6 +135,17 @@ void CurvilinearOperator::list_faces(std::span<const Index3> cells, std::vector<
     }
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+}
+
+double CurvilinearOperator::largest_cosine() const
+{
+  double square = 0.0;
+  for (const auto& [a, b] : cross_pairs)
+    square = std::max(square, max_cells(ranks_.owned(),
+                                        [aa = G_[a], bb = G_[b], ab = G_[grid::symmetric(a, b)]](int i, int j, int k) {
+                                          return ab(i, j, k) * ab(i, j, k) / (aa(i, j, k) * bb(i, j, k));
+                                        }));
+  return std::sqrt(ranks_.max(square));
 }
 
 CurvilinearOperator::Changes CurvilinearOperator::set_blocked(std::span<const FaceIndex> faces)

@@ -50,7 +50,9 @@ class CurvilinearOperator {
   [[nodiscard]] View3<const double> cross() const { return views(cross_); }
   /// Closed faces of owned cells: blocked ones and Neumann sides.
   [[nodiscard]] View<const operators::ClosedFaces> closed() const { return closed_.view(); }
-  [[nodiscard]] const SideConditions& sides() const { return sides_; }
+  /// Largest |cos| of the angles between the gradients of two index directions, |G_ab|/sqrt(G_aa G_bb): 0 on an
+  /// orthogonal grid.  Collective.
+  [[nodiscard]] double largest_cosine() const;
 
  private:
   void close_sides();

@@ -74,16 +74,17 @@ class Coarsening {
       split_into_parts(static_cast<int>(n));
     add_neighbours_of_split_cells();
     for (std::size_t n = 0; n < cuts_.cells.size(); ++n)
-      sum_coefficients(cuts_.cells[n], n < boxes_.size() ? boxes_[n].extras : none_);
+      sum_coefficients(static_cast<int>(n), n < boxes_.size() ? boxes_[n].extras : none_);
     sort_links(cuts_.links);
     for (std::size_t n = 0; n < cuts_.cells.size(); ++n)
-      correct_interpolation(cuts_.cells[n], n < boxes_.size() ? boxes_[n].extras : none_);
+      correct_interpolation(static_cast<int>(n), n < boxes_.size() ? boxes_[n].extras : none_);
     return std::move(cuts_);
   }
 
  private:
   struct Members {
-    std::vector<int> extras;  // fine extras inside this coarse cell
+    std::vector<int> extras;                                  // fine extras inside this coarse cell
+    std::array<int, 8> cuts{-1, -1, -1, -1, -1, -1, -1, -1};  // fine cut cells, by their position in it
   };
   struct Child {
     Index3 cell;
@@ -94,6 +95,13 @@ class Coarsening {
   [[nodiscard]] Index3 box_of(const Index3& c) const
   {
     return {merges_[0].parent[c[0]], merges_[1].parent[c[1]], merges_[2].parent[c[2]]};
+  }
+  [[nodiscard]] int position_in_box(const Index3& c) const
+  {
+    int position = 0;
+    for (int a = 0; a < 3; ++a)
+      position += (c[a] - merges_[a].first[merges_[a].parent[c[a]]]) << a;
+    return position;
   }
   [[nodiscard]] Index3 fine_cell_of(Unknown x) const
   {
@@ -112,35 +120,49 @@ class Coarsening {
       boxes_.resize(std::max<std::size_t>(boxes_.size(), n + 1));
       return n;
     };
-    for (const CutCell& cut : fine_cuts_.cells)
-      box_number(cut.cell);
+    for (std::size_t n = 0; n < fine_cuts_.cells.size(); ++n) {
+      const Index3& c = fine_cuts_.cells[n].cell;
+      const int position = position_in_box(c);
+      boxes_[box_number(c)].cuts[position] = static_cast<int>(n);
+    }
     for (std::size_t e = 0; e < fine_cuts_.extras.size(); ++e)
       boxes_[box_number(fine_cuts_.extras[e].cell)].extras.push_back(static_cast<int>(e));
   }
 
-  void list_children(const Index3& C, std::vector<Child>& children) const
+  /// Cells that were added as neighbours hold no cut ones.
+  void list_children(int n, std::vector<Child>& children) const
   {
+    const Index3 C = cuts_.cells[n].cell;
+    const Members* members = n < static_cast<int>(boxes_.size()) ? &boxes_[n] : nullptr;
     children.clear();
     const auto begin = [&](int a) { return merges_[a].first[C[a]]; };
     const auto end = [&](int a) { return merges_[a].first[C[a] + 1]; };
     for (int k = begin(2); k < end(2); ++k)
       for (int j = begin(1); j < end(1); ++j)
-        for (int i = begin(0); i < end(0); ++i)
-          children.push_back({{i, j, k},
-                              fine_cuts_.at(fine_.key({i, j, k})),
-                              (i - begin(0)) + 2 * (j - begin(1)) + 4 * (k - begin(2))});
+        for (int i = begin(0); i < end(0); ++i) {
+          const int position = (i - begin(0)) + 2 * (j - begin(1)) + 4 * (k - begin(2));
+          const int cut = members != nullptr ? members->cuts[position] : -1;
+          children.push_back({{i, j, k}, cut < 0 ? nullptr : &fine_cuts_.cells[cut], position});
+        }
   }
 
   /// Joins what open links join inside one coarse cell; true when some link inside it is closed.
   bool join_inside(const Index3& C, const std::vector<int>& extras)
   {
     bool closed = false;
+    const Index3 lowest{merges_[0].first[C[0]], merges_[1].first[C[1]], merges_[2].first[C[2]]};
+    const Index3 count{merges_[0].first[C[0] + 1] - lowest[0], merges_[1].first[C[1] + 1] - lowest[1],
+                       merges_[2].first[C[2] + 1] - lowest[2]};
+    const auto number_of_child = [&](const Index3& c) {  // in the order of list_children()
+      return (c[0] - lowest[0]) + count[0] * ((c[1] - lowest[1]) + count[1] * (c[2] - lowest[2]));
+    };
     const auto number_of = [&](Unknown x) {
-      for (std::size_t n = 0; n < children_.size(); ++n)
-        if (is_cell(x) && fine_.key(children_[n].cell) == x)
-          return static_cast<int>(n);
+      if (is_cell(x)) {
+        const Index3 c = fine_.cell(x);
+        return box_of(c) == C ? number_of_child(c) : -1;
+      }
       for (std::size_t n = 0; n < extras.size(); ++n)
-        if (!is_cell(x) && extras[n] == extra_number(x))
+        if (extras[n] == extra_number(x))
           return static_cast<int>(children_.size() + n);
       return -1;
     };
@@ -151,7 +173,7 @@ class Coarsening {
         if (!fine_.neighbour(children_[a].cell, side, other) || box_of(other) != C || other == children_[a].cell)
           continue;
         if (fine_coefficient(children_[a], side) > 0.0)
-          sets_.join(static_cast<int>(a), number_of(fine_.key(other)));
+          sets_.join(static_cast<int>(a), number_of_child(other));
         else
           closed = true;
       }
@@ -183,7 +205,7 @@ class Coarsening {
   {
     const Index3 C = cuts_.cells[n].cell;
     const std::vector<int>& extras = boxes_[n].extras;
-    list_children(C, children_);
+    list_children(n, children_);
     const bool closed = join_inside(C, extras);
     if (!closed && extras.empty())
       return;
@@ -235,14 +257,21 @@ class Coarsening {
     for (std::size_t n = 0; n < boxes_.size(); ++n)
       for (int side = 0; side < 6 && cuts_.cells[n].split(); ++side) {
         Index3 other;
-        if (coarse_.neighbour(cuts_.cells[n].cell, side, other))
-          add_cell(cuts_, coarse_, other);
+        if (!coarse_.neighbour(cuts_.cells[n].cell, side, other))
+          continue;
+        const auto m = static_cast<std::size_t>(add_cell(cuts_, coarse_, other));
+        beside_split_.resize(std::max(beside_split_.size(), m + 1));
+        beside_split_[m] |= static_cast<unsigned char>(1u << (side ^ 1));
       }
+    beside_split_.resize(cuts_.cells.size());
   }
+  /// Whether the coarse cell on a side of the n-th cut one holds several values.
+  [[nodiscard]] bool beside_split(int n, int side) const { return (beside_split_[n] >> side & 1) != 0; }
 
   /// A coarse coefficient is the sum of the fine ones of its face times fine over coarse distance.
-  void sum_coefficients(CutCell& cut, const std::vector<int>& extras)
+  void sum_coefficients(int n, const std::vector<int>& extras)
   {
+    CutCell& cut = cuts_.cells[n];
     const Index3 C = cut.cell;
     const Unknown key = coarse_.key(C);
     const auto add = [&](Unknown from, Unknown to, int side, double fine_coefficient) {
@@ -261,7 +290,7 @@ class Coarsening {
         else if (box_of(fine_cell_of(link.to)) != C)
           add(parent_of(x), parent_of(link.to), link.side, link.coefficient);
     };
-    list_children(C, children_);
+    list_children(n, children_);
     for (const Child& child : children_) {
       const Unknown x = fine_.key(child.cell);
       for (int side = 0; side < 6; ++side) {
@@ -269,12 +298,16 @@ class Coarsening {
         Index3 other;
         if (!(c > 0.0))
           continue;
-        if (!fine_.neighbour(child.cell, side, other))
-          add(parent_of(x), outside, side, c);
-        else if (box_of(other) != C)
-          add(parent_of(x), parent_of(fine_.key(other)), side, c);
+        const bool inside = fine_.neighbour(child.cell, side, other);
+        if (inside && box_of(other) == C)
+          continue;
+        if (!cut.split() && !beside_split(n, side))
+          cut.coefficient[side] += c * merges_[side / 2].scale[C[side / 2] + side % 2];
+        else
+          add(parent_of(x), inside ? parent_of(fine_.key(other)) : outside, side, c);
       }
-      add_links(x);
+      if (child.cut != nullptr)
+        add_links(x);
     }
     for (const int e : extras)
       add_links(extra_unknown(e));
@@ -282,11 +315,12 @@ class Coarsening {
 
   /// Interpolation stays linear towards a neighbour that an open face joins, when neither cell is split; it becomes
   /// constant otherwise, and from its own part inside a split cell.
-  void correct_interpolation(const CutCell& cut, const std::vector<int>& extras)
+  void correct_interpolation(int n, const std::vector<int>& extras)
   {
+    const CutCell& cut = cuts_.cells[n];
     const Unknown key = coarse_.key(cut.cell);
     std::vector<Interpolation>& list = fine_cuts_.interpolation;
-    list_children(cut.cell, children_);
+    list_children(n, children_);
     for (const Child& child : children_) {
       const Unknown x = fine_.key(child.cell);
       const Unknown own = cut.split() ? cuts_.parts[cut.parts][child.position] : key;
@@ -294,11 +328,12 @@ class Coarsening {
       for (int a = 0; a < 3; ++a) {
         const double w = merges_[a].weight[child.cell[a]];
         const int towards = merges_[a].towards[child.cell[a]];
-        if (w == 0.0 || keeps_weight(cut, 2 * a + (towards + 1) / 2))
+        const int side = 2 * a + (towards + 1) / 2;
+        if (w == 0.0 || (!cut.split() && cut.coefficient[side] > 0.0 && !beside_split(n, side)))
           continue;
         to_cell += w;
         Index3 other;
-        if (coarse_.neighbour(cut.cell, 2 * a + (towards + 1) / 2, other))
+        if (coarse_.neighbour(cut.cell, side, other))
           list.push_back({x, coarse_.key(other), -w});
       }
       if (to_cell != 0.0)
@@ -311,23 +346,13 @@ class Coarsening {
         list.push_back({extra_unknown(e), fine_cuts_.parent_of_extra[e], 1.0});
   }
 
-  [[nodiscard]] bool keeps_weight(const CutCell& cut, int side) const
-  {
-    if (cut.split() || !(cut.coefficient[side] > 0.0))
-      return false;
-    Index3 other;
-    if (!coarse_.neighbour(cut.cell, side, other))
-      return true;
-    const CutCell* neighbour = cuts_.at(coarse_.key(other));
-    return neighbour == nullptr || !neighbour->split();
-  }
-
   Cuts& fine_cuts_;
   const Box& fine_;
   const Box& coarse_;
   const std::array<Merge, 3>& merges_;
   Cuts cuts_;
   std::vector<Members> boxes_;
+  std::vector<unsigned char> beside_split_;  // bit per side
   std::vector<Child> children_;
   Sets sets_;
   const std::vector<int> none_;

@@ -104,8 +104,8 @@ Level::Level(const Box& box, const IndexBox& owned, const Neighbourhood* neighbo
       neighbourhood_(neighbourhood),
       exchange_(layout_, box.lines, neighbourhood)
 {
-  const bool odd = box.lines[0].odd_seam() || box.lines[1].odd_seam() || box.lines[2].odd_seam();
-  residual_colours_ = odd ? Colours::Both : Colours::Red;
+  colours_clash_ = box.lines[0].odd_seam() || box.lines[1].odd_seam() || box.lines[2].odd_seam();
+  residual_colours_ = colours_clash_ ? Colours::Both : Colours::Red;
   make_tables();
   prepare_threads();
   set_cuts(Cuts{});
@@ -201,37 +201,37 @@ void Level::for_rows(int k, int colour, const float* values, Work work) const
   }
 }
 
-void Level::start_plane(int k)
+void Level::start_plane(int k, int colour, Values& x, const Values& b)
 {
-  for_rows(k, 0, u.data(), [this](const Stencil& s, const auto& row) {
-    const float* __restrict rhs = f.data() + s.own;
-    float* __restrict out = u.data() + s.own;
+  for_rows(k, colour, x.data(), [&x, &b](const Stencil& s, const auto& row) {
+    const float* __restrict rhs = b.data() + s.own;
+    float* __restrict out = x.data() + s.own;
 #pragma omp simd
     for (int n = 0; n < s.count; ++n)
       out[n] = rhs[n] * row.inverse(n);
   });
-  for (const Row* row = rows_begin(k, 0); row != rows_end(k, 0); ++row) {
-    float sum = f[row->place];
+  for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row) {
+    float sum = b[row->place];
     for (int e = row->begin; e < row->end; ++e)
       if (entries_[e].place >= layout_.size)
-        sum += entries_[e].coefficient * u[entries_[e].place];
-    u[row->place] = sum * row->inverse;
+        sum += entries_[e].coefficient * x[entries_[e].place];
+    x[row->place] = sum * row->inverse;
   }
-  exchange_.close_plane(u.data(), k, Colours::Red);
+  exchange_.close_plane(x.data(), k, colour == 0 ? Colours::Red : Colours::Black);
 }
 
-void Level::relax_plane(int k, int colour)
+void Level::relax_plane(int k, int colour, Values& x, const Values& b)
 {
-  for_rows(k, colour, u.data(), [this](const Stencil& s, const auto& row) {
-    const float* __restrict rhs = f.data() + s.own;
-    float* __restrict out = u.data() + s.own;
+  for_rows(k, colour, x.data(), [&x, &b](const Stencil& s, const auto& row) {
+    const float* __restrict rhs = b.data() + s.own;
+    float* __restrict out = x.data() + s.own;
 #pragma omp simd
     for (int n = 0; n < s.count; ++n)
       out[n] = (rhs[n] + row.neighbours(n)) * row.inverse(n);
   });
   for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row)
-    u[row->place] = (f[row->place] + neighbour_sum(*row, u.data())) * row->inverse;
-  exchange_.close_plane(u.data(), k, colour == 0 ? Colours::Red : Colours::Black);
+    x[row->place] = (b[row->place] + neighbour_sum(*row, x.data())) * row->inverse;
+  exchange_.close_plane(x.data(), k, colour == 0 ? Colours::Red : Colours::Black);
 }
 
 void Level::residual_plane(int k, int colour)
@@ -291,22 +291,22 @@ float Level::image(const Row& row, const float* values) const
   return sum;
 }
 
-void Level::relax_extras(Order order, bool from_zero)
+void Level::relax_extras(Order order, bool from_zero, Values& x, const Values& b)
 {
   if (extras_ == 0)
     return;
   if (from_zero)
-    std::fill_n(u.data() + layout_.size, extras_, 0.0f);
+    std::fill_n(x.data() + layout_.size, extras_, 0.0f);
   const int n = static_cast<int>(extra_rows_.size());
   for (int t = 0; t < n; ++t) {
     const Row& row = extra_rows_[order == Order::Forward ? t : n - 1 - t];
-    float sum = f[row.place];
+    float sum = b[row.place];
     for (int e = row.begin; e < row.end; ++e)
       if (!from_zero || entries_[e].place >= layout_.size)
-        sum += entries_[e].coefficient * u[entries_[e].place];
-    u[row.place] = sum * row.inverse;
+        sum += entries_[e].coefficient * x[entries_[e].place];
+    x[row.place] = sum * row.inverse;
   }
-  share_extras(u.data());
+  share_extras(x.data());
 }
 
 void Level::residual_extras()

@@ -32,6 +32,10 @@ class Level {
   [[nodiscard]] RowExchange& exchange() { return exchange_; }
   /// Colours that carry a residual after a black half sweep: red, or both where colours clash at an odd periodic seam.
   [[nodiscard]] Colours residual_colours() const { return residual_colours_; }
+  /// Whether cells of one colour meet at an odd periodic seam.
+  [[nodiscard]] bool colours_clash() const { return colours_clash_; }
+  /// Both colours carry one from now on.
+  void keep_whole_residual() { residual_colours_ = Colours::Both; }
 
   /// Coefficients of a level of Kind::Stored.
   [[nodiscard]] StoredCoefficients& coefficients() { return *stored_; }
@@ -46,9 +50,11 @@ class Level {
 
   /// Makes room for the threads that now work on planes.
   void prepare_threads();
-  /// u = f / diagonal on red cells of plane k: a red half sweep from u = 0.
-  void start_plane(int k);
-  void relax_plane(int k, int colour);
+  /// x = b / diagonal on cells of a colour of plane k: a half sweep for A x = b from x = 0.
+  void start_plane(int k, int colour, Values& x, const Values& b);
+  void relax_plane(int k, int colour, Values& x, const Values& b);
+  void start_plane(int k) { start_plane(k, 0, u, f); }
+  void relax_plane(int k, int colour) { relax_plane(k, colour, u, f); }
   /// r = f - A u on cells of a colour.
   void residual_plane(int k, int colour);
   /// q = A p; returns the sum of p q over plane k.
@@ -56,7 +62,8 @@ class Level {
 
   enum class Order { Forward, Backward };
   /// Gauss-Seidel over this rank's extras, then shares them.  From u = 0, only extras are read.
-  void relax_extras(Order order, bool from_zero);
+  void relax_extras(Order order, bool from_zero, Values& x, const Values& b);
+  void relax_extras(Order order, bool from_zero) { relax_extras(order, from_zero, u, f); }
   void residual_extras();
   void share_extras(float* values) const;
   /// Collective: what every rank contributed to the values of a level that all hold whole.
@@ -98,6 +105,7 @@ class Level {
   bool distributed_;
   const Neighbourhood* neighbourhood_;
   RowExchange exchange_;
+  bool colours_clash_;
   Colours residual_colours_;
   std::array<std::vector<float>, 2> left_, right_, ends_, width_;        // along rows, per parity of i
   std::array<std::vector<float>, 2> widths_, inverse_distances_;         // along j and k

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "poisson/curvilinear_operator.hpp"
 #include "poisson/stages.hpp"
 
 namespace luff::poisson {
@@ -202,6 +203,11 @@ void Multigrid::set_blocked(std::span<const FaceIndex> faces)
   }
   for (std::size_t l = 0; l < levels_.size(); ++l)
     levels_[l]->set_cuts(cuts_[l]);
+  for (std::size_t l = 0; l < cross_terms_.size(); ++l) {
+    if (l + 1 < cross_terms_.size())
+      coarsen_cross_terms(l);
+    correction_[l].resize(levels_[l]->u.size());
+  }
   for (std::size_t l = 0; l < transfers_.size(); ++l)
     transfers_[l]->set_cuts(cuts_[l], cuts_[l + 1]);
   coarsest_.factorise(*levels_.back(), cuts_.back());
@@ -251,25 +257,100 @@ void Multigrid::label_components(std::vector<int>& component, std::vector<char>&
   }
 }
 
-void Multigrid::smooth_from_zero(Level& level)
+void Multigrid::smooth_cross_terms(CrossTerms& finest)
 {
+  coarse_cross_terms_.clear();
+  cross_terms_.assign(1, &finest);
+  for (std::size_t l = 1; l + 1 < levels_.size(); ++l) {
+    coarse_cross_terms_.push_back(std::make_unique<CrossTerms>(*levels_[l]));
+    cross_terms_.push_back(coarse_cross_terms_.back().get());
+  }
+  correction_.resize(cross_terms_.size());
+  for (std::size_t l = 0; l < cross_terms_.size(); ++l)
+    levels_[l]->keep_whole_residual();
+}
+
+namespace {
+
+/// Mean of fine over coarse distance across the two faces of a coarse cell, of the one that has any beside a wall.
+/// (Fine over coarse width would be wrong in cells that stay alone.)
+double mean_scale(const Merge& merge, int I)
+{
+  const double low = merge.scale[I];
+  const double high = merge.scale[I + 1];
+  return low > 0.0 && high > 0.0 ? 0.5 * (low + high) : std::max(low, high);
+}
+
+}  // namespace
+
+/// g_C = sum over children of g s_a s_b; none in cells that blocked faces touch, whose differences across open coarse
+/// faces no longer are those that the children's terms were made for.
+void Multigrid::coarsen_cross_terms(std::size_t l)
+{
+  Level& fine = *levels_[l];
+  Level& coarse = *levels_[l + 1];
+  const CrossTerms& terms = *cross_terms_[l];
+  CrossTerms& result = *cross_terms_[l + 1];
+  const std::array<Merge, 3>& merges = transfers_[l]->merges();
+  const auto sum = [&](int pair, const Index3& C) {
+    double total = 0.0;
+    for (int k = merges[2].first[C[2]]; k < merges[2].first[C[2] + 1]; ++k)
+      for (int j = merges[1].first[C[1]]; j < merges[1].first[C[1] + 1]; ++j)
+        for (int i = merges[0].first[C[0]]; i < merges[0].first[C[0] + 1]; ++i)
+          total += terms.value(pair, {i, j, k});
+    for (const int a : cross_pairs[pair])
+      total *= mean_scale(merges[a], C[a]);
+    return total;
+  };
+  const bool gather = fine.distributed() && !coarse.distributed();
+  for (int pair = 0; pair < 3 && gather; ++pair)
+    std::fill_n(result.values(pair).data(), result.values(pair).size(), 0.0f);
+  const IndexBox own = gather ? block_of(fine.box(), coarse.box(), fine.layout().owned) : coarse.layout().owned;
+  result.load(own, sum);
+  for (const CutCell& cut : cuts_[l + 1].cells)
+    for (int pair = 0; pair < 3 && own.contains(cut.cell); ++pair)
+      result.values(pair)[coarse.layout().index(cut.cell)] = 0.0f;
+  for (int pair = 0; pair < 3 && gather; ++pair)
+    fine.sum_over_ranks(result.values(pair));
+  result.close();
+}
+
+void Multigrid::smooth_from_zero(std::size_t l)
+{
+  Level& level = *levels_[l];
+  CrossTerms* const cross = cross_terms_.empty() ? nullptr : cross_terms_[l];
   RowExchange& halo = level.exchange();
   const IndexBox& owned = level.layout().owned;
   const int threads = threads_for(owned);
   const Colours residual = level.residual_colours();
-  if (residual == Colours::Both)
+  if (level.colours_clash())
     std::fill_n(level.u.data(), level.u.size(), 0.0f);
   level.relax_extras(Level::Order::Forward, /*from_zero=*/true);
-  const int stages = 2 * sweeps + (residual == Colours::Both ? 2 : 1);
+  const auto residual_plane = [&](int k) {
+    for (int colour = 0; colour < 2; ++colour)
+      if (includes(residual, colour))
+        level.residual_plane(k, colour);
+    if (cross != nullptr) {
+      cross->subtract_plane(k, level.u.data(), level.r.data());
+      halo.close_plane(level.r.data(), k, Colours::Both);
+    }
+  };
+  constexpr int prepare = 2 * sweeps;
   const auto stage = [&](int s, int k) {
     if (s == 0)
       level.start_plane(k);
     else if (s < 2 * sweeps)
       level.relax_plane(k, s % 2);
+    else if (s == prepare && cross != nullptr)
+      cross->prepare_plane(k, level.u.data());
     else
-      level.residual_plane(k, s - 2 * sweeps);
+      residual_plane(k);
   };
-  if (halo.within_planes() && level.extras() == 0) {
+  const int stages = 2 * sweeps + (cross != nullptr ? 2 : 1);
+  const bool wave = halo.within_planes() && level.extras() == 0;
+  if (cross != nullptr)
+    cross->keep_all_planes(!wave || threads > 1);
+  if (wave) {
     run_stages(owned.lo[2], owned.hi[2], stages, threads, stage);
     return;
   }
@@ -277,14 +358,18 @@ void Multigrid::smooth_from_zero(Level& level)
     if (s > 0 && s < 2 * sweeps && s % 2 == 0)
       level.relax_extras(Level::Order::Forward, /*from_zero=*/false);
     run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { stage(s, k); });
-    if (s < 2 * sweeps)
+    if (s + 1 == 2 * sweeps && cross != nullptr)
+      halo.exchange_with_edges(level.u.data());
+    else if (s < 2 * sweeps)
       halo.exchange(level.u.data(), s % 2 == 0 ? Colours::Red : Colours::Black);
   }
   level.residual_extras();
 }
 
-void Multigrid::smooth(Level& level, Transfer& correction, const PlaneWork& after)
+void Multigrid::smooth(std::size_t l, const PlaneWork& after)
 {
+  Level& level = *levels_[l];
+  Transfer& correction = *transfers_[l];
   RowExchange& halo = level.exchange();
   const IndexBox& owned = level.layout().owned;
   const int threads = threads_for(owned);
@@ -314,6 +399,78 @@ void Multigrid::smooth(Level& level, Transfer& correction, const PlaneWork& afte
   run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { after(k); });
 }
 
+/// u += P u_coarse, r = f - A u with all terms, then u += S^T r: the transpose of smooth_from_zero(), whose sweeps S
+/// know of the 7-point part alone.
+void Multigrid::smooth_with_cross_terms(std::size_t l, const PlaneWork& after)
+{
+  Level& level = *levels_[l];
+  CrossTerms& cross = *cross_terms_[l];
+  Values& e = correction_[l];
+  RowExchange& halo = level.exchange();
+  const IndexBox& owned = level.layout().owned;
+  const int threads = threads_for(owned);
+  transfers_[l]->begin_prolongation();
+  const auto add = [&](int k) {
+    for (int j = owned.lo[1]; j < owned.hi[1]; ++j)
+      for (int colour = 0; colour < 2; ++colour) {
+        const std::ptrdiff_t start = level.layout().start(j, k, colour);
+        const int m = level.layout().count(Layout::parity(j, k, colour));
+        float* __restrict u = level.u.data() + start;
+        const float* __restrict own = e.data() + start;
+#pragma omp simd
+        for (int n = 0; n < m; ++n)
+          u[n] += own[n];
+      }
+    halo.close_plane(level.u.data(), k, Colours::Both);
+    after(k);
+  };
+  constexpr int first_sweep = 3;
+  constexpr int last = first_sweep + 2 * sweeps;
+  const auto stage = [&](int s, int k) {
+    if (s == 0) {
+      transfers_[l]->prolong_plane(k);
+    } else if (s == 1) {
+      cross.prepare_plane(k, level.u.data());
+    } else if (s == 2) {
+      level.residual_plane(k, 0);
+      level.residual_plane(k, 1);
+      cross.subtract_plane(k, level.u.data(), level.r.data());
+    } else if (s == first_sweep) {
+      level.start_plane(k, 1, e, level.r);
+    } else if (s < last) {
+      level.relax_plane(k, (s - first_sweep + 1) % 2, e, level.r);
+    } else {
+      add(k);
+    }
+  };
+  if (level.colours_clash())
+    std::fill_n(e.data(), e.size(), 0.0f);
+  std::fill_n(e.data() + level.layout().size, level.extras(), 0.0f);
+  const bool wave = halo.within_planes() && level.extras() == 0;
+  cross.keep_all_planes(!wave || threads > 1);
+  if (wave) {
+    run_stages(owned.lo[2], owned.hi[2], last + 1, threads, stage);
+    return;
+  }
+  for (int s = 0; s < last; ++s) {
+    run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { stage(s, k); });
+    if (s == 0)
+      halo.exchange_with_edges(level.u.data());
+    if (s == 2)
+      level.residual_extras();
+    if (s < first_sweep)
+      continue;
+    const int sweep = s - first_sweep;
+    halo.exchange(e.data(), sweep % 2 == 0 ? Colours::Black : Colours::Red);
+    if (sweep % 2 == 1)
+      level.relax_extras(Level::Order::Backward, /*from_zero=*/false, e, level.r);
+  }
+  for (int x = 0; x < level.extras(); ++x)
+    level.u[level.layout().size + x] += e[level.layout().size + x];
+  run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { stage(last, k); });
+  halo.exchange(level.u.data(), Colours::Both);
+}
+
 void Multigrid::solve_coarsest(const PlaneWork& after)
 {
   Level& level = *levels_.back();
@@ -333,10 +490,13 @@ void Multigrid::cycle(std::size_t l, const PlaneWork& after)
     return;
   }
   levels_[l]->prepare_threads();
-  smooth_from_zero(*levels_[l]);
+  smooth_from_zero(l);
   transfers_[l]->restrict_residual();
   cycle(l + 1, [](int) {});
-  smooth(*levels_[l], *transfers_[l], after);
+  if (cross_terms_.empty())
+    smooth(l, after);
+  else
+    smooth_with_cross_terms(l, after);
 }
 
 }  // namespace luff::poisson

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "poisson/coarsest.hpp"
+#include "poisson/cross_terms.hpp"
 #include "poisson/transfer.hpp"
 
 namespace luff::poisson {
@@ -24,6 +25,9 @@ class Multigrid {
 
   /// Stored coefficients of some faces of this rank changed on the finest level.  Then set_blocked().  Collective.
   void update_coefficients(std::span<const FaceIndex> faces, const StoredCoefficients::Source& source);
+  /// Smooths the operator with cross terms from now on: those of the finest level, which is an argument, and on every
+  /// coarser one what follows from them.  Pays on grids that are strongly skewed.  Then set_blocked().
+  void smooth_cross_terms(CrossTerms& finest);
   /// Takes the blocked faces of the whole domain, the same on every rank.
   void set_blocked(std::span<const FaceIndex> faces);
 
@@ -47,14 +51,19 @@ class Multigrid {
   void coarsen_coefficients(std::size_t l, std::vector<FaceIndex>& changed);
   void share_cells_near_cuts(std::size_t l);
   void cycle(std::size_t l, const PlaneWork& after);
-  void smooth_from_zero(Level& level);
-  void smooth(Level& level, Transfer& correction, const PlaneWork& after);
+  void coarsen_cross_terms(std::size_t l);
+  void smooth_from_zero(std::size_t l);
+  void smooth(std::size_t l, const PlaneWork& after);
+  void smooth_with_cross_terms(std::size_t l, const PlaneWork& after);
   void solve_coarsest(const PlaneWork& after);
 
   MPI_Comm comm_;
   std::vector<std::unique_ptr<Level>> levels_;
   std::vector<std::unique_ptr<Transfer>> transfers_;
   std::vector<Cuts> cuts_;
+  std::vector<CrossTerms*> cross_terms_;  // per level but the coarsest; empty where not smoothed
+  std::vector<std::unique_ptr<CrossTerms>> coarse_cross_terms_;
+  std::vector<Values> correction_;  // of levels with cross terms
   CoarsestSolver coarsest_;
 };
 

@@ -42,6 +42,8 @@ std::array<double, 2> sums_by_volume(const Metric metric, const IndexBox& box, c
 
 /// Single precision gains at most about six digits in a round; conjugate gradients stop earlier where it gains fewer.
 constexpr double round_tolerance = 5e-7;
+/// Cosine above which a multigrid that knows of the cross terms is worth its price (docs/numerics/poisson.md).
+constexpr double strong_skew = 0.85;
 
 Index3 longest_last(const Index3& cells)
 {
@@ -161,6 +163,10 @@ void MultigridSolver::make_cross_terms()
   cross_terms_ = std::make_unique<CrossTerms>(multigrid_.finest());
   cross_terms_->load(multigrid_.finest().layout().owned, cross_source());
   cross_terms_->close();
+  if (curvilinear_->gradient().largest_cosine() > strong_skew) {
+    multigrid_.smooth_cross_terms(*cross_terms_);
+    multigrid_.set_blocked({});
+  }
 }
 
 /// Cross terms in the order of the multigrid's axes: exchanging y and z exchanges the pairs (x, y) and (x, z).

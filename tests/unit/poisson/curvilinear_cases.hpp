@@ -137,6 +137,8 @@ inline std::vector<NamedCurvilinearCase> curvilinear_cases()
       {"left-handed", {{18, 20, 17}, luff::test::Mirrored<Slid>{}, "NNDNNN"}, flag},
       {"bent pipe, orifice", {{30, 20, 22}, BentPipe{}, "NDNNNN"}, orifice(0.1)},
       {"bent pipe, pressure on both ends", {{30, 24, 18}, BentPipe{}, "DDNNNN"}, flag},
+      {"strongly skewed pipe, orifice", {{30, 20, 22}, BentPipe{0.9}, "NDNNNN"}, orifice(0.1)},
+      {"strongly skewed, left-handed, flag", {{20, 22, 18}, luff::test::Mirrored<Slid>{{0.25}}}, flag},
       {"waved, periodic, odd", {{15, 13, 9}, luff::test::Waved{}, "PPPPPP"}, no_sheet},
       {"waved, partly periodic, flag", {{25, 16, 21}, luff::test::Waved{}, "NDPPPP"}, flag},
       {"ring", {{32, 12, 10}, Ring{}, "PPNNND"}, flag},

@@ -13,7 +13,7 @@ std::vector<NamedCurvilinearCase> shared_cases()
   std::vector<NamedCurvilinearCase> cases = curvilinear_cases();
   std::erase_if(cases, [](const auto& c) { return c.problem.cells[2] == 1; });
   cases.push_back({"slab", {{48, 40, 1}, Slid{}, "NDNNNN"}, flag});
-  cases.push_back({"two levels shared out", {{60, 62, 66}, BentPipe{}, "NDNNNN"}, orifice(0.05)});
+  cases.push_back({"two levels shared out", {{60, 62, 66}, BentPipe{0.9}, "NDNNNN"}, orifice(0.05)});
   cases.push_back({"two levels shared out, periodic", {{60, 66, 62}, luff::test::Waved{}, "NDPPPP"}, flag});
   return cases;
 }
@@ -41,7 +41,9 @@ TEST(CurvilinearProjectionOnRanks, GivesTheAnswerOfOneRank)
     EXPECT_LE(curvilinear_divergence(grid, together.U), 1e-13) << c.name;
     const grid::Grid alone = c.problem.grid();
     const Projection single = project(c.problem, alone, c.cuts, tight);
-    EXPECT_NEAR(together.report.iterations, single.report.iterations, 4) << c.name;
+    // Cells do not merge across the edges of blocks, so the hierarchies differ.
+    EXPECT_NEAR(together.report.iterations, single.report.iterations, std::max(4.0, 0.2 * single.report.iterations))
+        << c.name;
     const std::vector<double> p = whole(grid, together.p);
     const std::vector<double> p1 = whole(alone, single.p);
     double scale = 0.0;
