@@ -121,7 +121,7 @@ Expression::Expression(Formula formula)
 Expression::Expression(ScaledFile file)
     : source_(file),
       depends_on_time_(true),
-      function_(std::make_shared<ScaledSeries>(read_time_series(file.file), file.scale))
+      function_(std::make_shared<ScaledSeries>(read_time_series(file.file, {file.smooth, file.periodic}), file.scale))
 {
 }
 

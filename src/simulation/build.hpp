@@ -31,7 +31,7 @@ struct LoadedShell {
 [[nodiscard]] std::unique_ptr<Structure> build_structure(const config::Case& options);
 
 [[nodiscard]] std::array<std::vector<double>, 3> build_coordinates(const config::GridOptions& options);
-[[nodiscard]] fluid::Boundaries build_boundaries(const config::BoundaryOptions& options);
+[[nodiscard]] fluid::Boundaries build_boundaries(const config::Case& options);
 /// Collective.
 [[nodiscard]] std::unique_ptr<grid::Grid> build_grid(MPI_Comm comm, const config::Case& options);
 /// Collective.

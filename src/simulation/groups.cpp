@@ -16,16 +16,30 @@ namespace luff::simulation {
 
 namespace {
 
-/// Fastest of the initial velocity and of what the sides prescribe, at t = 0 in the middle of the domain.
+double side_area(const config::GridOptions& grid, std::size_t side)
+{
+  double area = 1.0;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (a != side / 2)
+      area *= grid.axes[a].to - grid.axes[a].from;
+  return area;
+}
+
+/// Fastest of the initial velocity and of what the sides prescribe, at t = 0 in the middle of the domain; of flow rates
+/// their mean over the side.
 double reference_speed(const config::Case& options)
 {
   Vec3 middle;
   for (int a = 0; a < 3; ++a)
     middle[a] = 0.5 * (options.grid.axes[a].from + options.grid.axes[a].to);
   double speed = options.fluid->initial.velocity.evaluate(middle, 0.0).norm();
-  for (const config::SideOptions& side : options.boundary.sides)
-    if (side.type == config::SideType::Velocity || side.type == config::SideType::Wall)
-      speed = std::max(speed, side.value.evaluate(middle, 0.0).norm());
+  for (std::size_t n = 0; n < options.boundary.sides.size(); ++n) {
+    const config::SideOptions& side = options.boundary.sides[n];
+    if (side.value)
+      speed = std::max(speed, side.value->evaluate(middle, 0.0).norm());
+    if (side.flow_rate)
+      speed = std::max(speed, std::abs(side.flow_rate->evaluate(middle, 0.0)) / side_area(options.grid, n));
+  }
   return speed;
 }
 
