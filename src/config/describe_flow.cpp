@@ -50,18 +50,40 @@ void describe(Schema& s, BoundaryOptions& boundary)
 void describe(Schema& s, SideOptions& side)
 {
   s.key("type", side.type,
-        {.doc = "`velocity`: given by `value`; `wall`: no slip, moving with `value`; `slip`: no flow through, no "
-                "shear; `symmetry`: mirror plane; `periodic`: joined to the opposite side; `outflow`: zero gradient, "
-                "corrected to conserve mass.",
+        {.doc = "`velocity`: given by `value` or `flow_rate`; `wall`: no slip, moving with `value`; `slip`: no flow "
+                "through, no shear; `symmetry`: mirror plane; `periodic`: joined to the opposite side; `outflow`: zero "
+                "gradient, corrected to conserve mass; `pressure`: given, the fluid goes in or out.",
          .required = true});
   const bool has_value = side.type == SideType::Velocity || side.type == SideType::Wall;
   s.when(has_value, "`type = \"velocity\"` or `type = \"wall\"`", [&] {
     s.key("value", side.value,
-          {.doc = "Velocity of the fluid (`velocity`, where it must be given) or of the wall.",
-           .unit = "m/s",
-           .required = side.type == SideType::Velocity});
+          {.doc = "Velocity of the fluid, or of the wall. Absent on a wall: it is at rest.", .unit = "m/s"});
   });
-  s.later({"flow_rate", "profile"});
+  s.when(side.type == SideType::Velocity, "`type = \"velocity\"`", [&] {
+    s.key("flow_rate", side.flow_rate,
+          {.doc = "Volume that enters per time, spread over the side by `profile`; negative: that leaves.",
+           .unit = "m^3/s",
+           .time_only = true});
+    s.rule(side.value.has_value() != side.flow_rate.has_value(), "flow_rate",
+           "or `value` must be given, one of the two");
+  });
+  s.when(side.flow_rate.has_value(), "`flow_rate`", [&] {
+    s.key("profile", side.profile,
+          {.doc = "`plug`: the same velocity everywhere; `parabolic`: the developed steady flow of the section, "
+                  "whatever its shape, zero at the walls around it; `womersley`: the developed periodic flow."});
+  });
+  s.when(side.profile == InflowShape::Womersley, "`profile = \"womersley\"`", [&] {
+    s.key("period", side.period, {.doc = "Period of the flow rate.", .unit = "s", .range = positive, .required = true});
+  });
+  s.when(side.type == SideType::Pressure, "`type = \"pressure\"`", [&] {
+    s.key("pressure", side.pressure,
+          {.doc = "Pressure on the side, counted from any level; `outflow` is 0.", .unit = "Pa", .required = true});
+    s.key(
+        "entering", side.entering,
+        {.doc = "Fluid that enters comes from a `reservoir` at rest, whose pressure (total) is given: stable whatever "
+                "the flow does; or it is `developed`, with the velocity that it has inside, and the pressure is the "
+                "static one: for a flow that keeps its direction."});
+  });
 }
 
 }  // namespace luff::config

@@ -130,7 +130,9 @@ Expression::Expression(Formula formula, Variables allowed)
 }
 
 Expression::Expression(ScaledFile file)
-    : source_(file), variables_("t"), function_(std::make_shared<ScaledSeries>(read_time_series(file.file), file.scale))
+    : source_(file),
+      variables_("t"),
+      function_(std::make_shared<ScaledSeries>(read_time_series(file.file, {file.smooth, file.periodic}), file.scale))
 {
 }
 

@@ -18,10 +18,12 @@ struct Formula {
   bool operator==(const Formula&) const = default;
 };
 
-/// `scale` times the piecewise linear function of time in a two-column CSV file.
+/// `scale` times the function of time in a two-column CSV file.
 struct ScaledFile {
   std::filesystem::path file;
   double scale = 1.0;
+  bool smooth = false;    ///< monotone cubics between the instants, not straight lines
+  bool periodic = false;  ///< repeated with the period from the first instant to the last
   bool operator==(const ScaledFile&) const = default;
 };
 

@@ -46,11 +46,18 @@ struct FluidOptions {
   bool operator==(const FluidOptions&) const = default;
 };
 
-enum class SideType { Velocity, Wall, Slip, Symmetry, Periodic, Outflow };
+enum class SideType { Velocity, Wall, Slip, Symmetry, Periodic, Outflow, Pressure };
+enum class InflowShape { Plug, Parabolic, Womersley };
+enum class EnteringFluid { Reservoir, Developed };
 
 struct SideOptions {
   SideType type = SideType::Wall;
-  VectorExpression value;  ///< velocity of the fluid (Velocity) or of the wall (Wall)
+  std::optional<VectorExpression> value;              ///< velocity of the fluid (Velocity) or of the wall (Wall)
+  std::optional<Expression> flow_rate;                ///< Velocity, instead of `value`: volume per time into the domain
+  InflowShape profile = InflowShape::Plug;            ///< of flow_rate
+  double period = 0.0;                                ///< of flow_rate with profile Womersley
+  Expression pressure;                                ///< Pressure
+  EnteringFluid entering = EnteringFluid::Reservoir;  ///< Pressure
 
   bool operator==(const SideOptions&) const = default;
 };

@@ -17,8 +17,8 @@ const std::string introduction =
     "This page is written by `luff options` from the descriptions that also check a case file. Units are examples: any "
     "consistent set will do, or none if the case is non-dimensional. A formula is text in quotes such as \"1 - "
     "cos(2*pi*t)\", in the language of muParser with `pi`; `{ file = \"wave.csv\", scale = 1 }` is a function of time: "
-    "two "
-    "columns, time and value, joined by straight lines and constant before the first and after the last.";
+    "two columns, time and value, joined by straight lines and constant before the first and after the last; with "
+    "`smooth = true` joined by monotone cubics, with `periodic = true` repeated.";
 
 std::string in_backticks(const std::vector<std::string>& names)
 {

@@ -120,7 +120,7 @@ void ValueReader::operator()(Expression* v) const
 
 std::optional<Expression> ValueReader::scaled_file(const toml::table& table) const
 {
-  static const std::vector<std::string> keys{"file", "scale"};
+  static const std::vector<std::string> keys{"file", "scale", "smooth", "periodic"};
   const std::size_t issues_before = context_.issues.count();
   for (auto&& [key, node] : table)
     if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
@@ -131,11 +131,17 @@ std::optional<Expression> ValueReader::scaled_file(const toml::table& table) con
     std::visit(ValueReader(*file, entry(*file, ".file")), Value{&source.file});
   else
     context_.issues.add(context_.place, fmt::format("{}.file is missing: give the path of a file", context_.path));
-  if (const auto* scale = table.get("scale")) {
-    const Spec any{.doc = ""};
-    const auto place = entry(*scale, ".scale");
-    read_value(*scale, &source.scale, {place.path, place.place, place.folder, any, place.issues});
-  }
+  const Spec any{.doc = ""};
+  const auto read_if_given = [&](const char* key, const Value& value) {
+    const auto* given = table.get(key);
+    if (given == nullptr)
+      return;
+    const auto place = entry(*given, std::string(".") + key);
+    read_value(*given, value, {place.path, place.place, place.folder, any, place.issues});
+  };
+  read_if_given("scale", &source.scale);
+  read_if_given("smooth", &source.smooth);
+  read_if_given("periodic", &source.periodic);
   if (context_.issues.count() > issues_before)
     return std::nullopt;
   return Expression(source);

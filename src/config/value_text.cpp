@@ -37,8 +37,9 @@ std::string expression(const Expression& e)
   return std::visit(Overloaded{[](double value) { return number(value); },
                                [](const Formula& formula) { return toml_string(formula.text); },
                                [](const ScaledFile& table) {
-                                 return fmt::format("{{ file = {}, scale = {} }}", toml_string(table.file.string()),
-                                                    number(table.scale));
+                                 return fmt::format("{{ file = {}, scale = {}{}{} }}", toml_string(table.file.string()),
+                                                    number(table.scale), table.smooth ? ", smooth = true" : "",
+                                                    table.periodic ? ", periodic = true" : "");
                                }},
                     e.source());
 }

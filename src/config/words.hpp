@@ -41,8 +41,18 @@ inline Words<SideType> words(SideType)
            {SideType::Slip, "slip"},
            {SideType::Symmetry, "symmetry"},
            {SideType::Periodic, "periodic"},
-           {SideType::Outflow, "outflow"}},
-          {"pressure"}};
+           {SideType::Outflow, "outflow"},
+           {SideType::Pressure, "pressure"}}};
+}
+
+inline Words<InflowShape> words(InflowShape)
+{
+  return {{{InflowShape::Plug, "plug"}, {InflowShape::Parabolic, "parabolic"}, {InflowShape::Womersley, "womersley"}}};
+}
+
+inline Words<EnteringFluid> words(EnteringFluid)
+{
+  return {{{EnteringFluid::Reservoir, "reservoir"}, {EnteringFluid::Developed, "developed"}}};
 }
 
 inline Words<MeshShape> words(MeshShape)

@@ -104,7 +104,7 @@ class FlowSolver {
   [[nodiscard]] double diffusive_rate() const { return diffusive_rate_; }
 
  private:
-  void fill_velocity_halo(const View3<double>& u, const View3<const double>& U);
+  void fill_velocity_halo(const View3<double>& u);
   void find_cut_links(const immersed::SheetMotion& predicted, double speed);
   void advance_stage(int stage);
   void add_cross_terms(const immersed::StageTime& time);

@@ -42,6 +42,11 @@ class Grid {
   [[nodiscard]] Vec3 centre(const Index3& c) const { return centre(c[0], c[1], c[2]); }
   /// The same of any cell of the domain.  Collective.
   [[nodiscard]] Vec3 centre_of_any(const Index3& c) const;
+  /// The low corner of a cell, of this rank's cells and those just above them.
+  [[nodiscard]] Vec3 node(int i, int j, int k) const
+  {
+    return kind_ == Kind::Curvilinear ? body_fitted_->node(i, j, k) : Vec3(face(0, i), face(1, j), face(2, k));
+  }
   /// Mean of the four nodes of the low face of a cell normal to an axis.
   [[nodiscard]] Vec3 face_centre(int axis, int i, int j, int k) const;
   /// Area vector of that face, towards increasing index [L^2].

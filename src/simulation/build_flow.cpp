@@ -22,16 +22,48 @@ fluid::SideKind kind_of(config::SideType type)
       return fluid::SideKind::Symmetry;
     case config::SideType::Periodic:
       return fluid::SideKind::Periodic;
+    case config::SideType::Pressure:
+      return fluid::SideKind::Pressure;
     case config::SideType::Outflow:
       break;
   }
   return fluid::SideKind::Outflow;
 }
 
+fluid::FlowProfile profile_of(config::InflowShape shape)
+{
+  switch (shape) {
+    case config::InflowShape::Parabolic:
+      return fluid::FlowProfile::Parabolic;
+    case config::InflowShape::Womersley:
+      return fluid::FlowProfile::Womersley;
+    case config::InflowShape::Plug:
+      break;
+  }
+  return fluid::FlowProfile::Plug;
+}
+
 fluid::VectorFunction function_of(const config::VectorExpression& expression, double factor = 1.0)
 {
   return {[expression, factor](const Vec3& x, double t) -> Vec3 { return factor * expression.evaluate(x, t); },
           expression.is_constant()};
+}
+
+fluid::SideBoundary side_of(const config::SideOptions& options, double density)
+{
+  fluid::SideBoundary side{.kind = kind_of(options.type)};
+  if (options.value)
+    side.velocity = function_of(*options.value);
+  if (options.flow_rate)
+    side.flow_rate = fluid::FlowRate{.into = [Q = *options.flow_rate](double t) { return Q.evaluate(Vec3::Zero(), t); },
+                                     .constant = options.flow_rate->is_constant(),
+                                     .profile = profile_of(options.profile),
+                                     .period = options.period};
+  side.pressure = {[p = options.pressure, density](const Vec3& x, double t) { return p.evaluate(x, t) / density; },
+                   options.pressure.is_constant()};
+  side.entering =
+      options.entering == config::EnteringFluid::Developed ? fluid::Entering::Developed : fluid::Entering::Reservoir;
+  return side;
 }
 
 fluid::FlowOptions flow_options(const config::Case& options)
@@ -49,14 +81,12 @@ fluid::FlowOptions flow_options(const config::Case& options)
 
 }  // namespace
 
-fluid::Boundaries build_boundaries(const config::BoundaryOptions& options)
+fluid::Boundaries build_boundaries(const config::Case& options)
 {
   fluid::Boundaries boundaries;
   for (int a = 0; a < 3; ++a)
-    for (int end = 0; end < 2; ++end) {
-      const config::SideOptions& side = options.sides[2 * a + end];
-      boundaries[a][end] = {kind_of(side.type), function_of(side.value)};
-    }
+    for (int end = 0; end < 2; ++end)
+      boundaries[a][end] = side_of(options.boundary.sides[2 * a + end], options.fluid->density);
   return boundaries;
 }
 
@@ -78,7 +108,7 @@ std::unique_ptr<grid::Grid> build_curvilinear(MPI_Comm comm, const config::GridO
 
 std::unique_ptr<grid::Grid> build_grid(MPI_Comm comm, const config::Case& options)
 {
-  const auto periodic = fluid::periodic_axes(build_boundaries(options.boundary));
+  const auto periodic = fluid::periodic_axes(build_boundaries(options));
   if (is_curvilinear(options.grid.kind))
     return build_curvilinear(comm, options.grid, periodic);
   auto coordinates = build_coordinates(options.grid);
@@ -90,7 +120,7 @@ std::unique_ptr<Surroundings> build_surroundings(MPI_Comm comm, const config::Ca
 {
   if (!options.fluid)
     return std::make_unique<Surroundings>();
-  const fluid::Boundaries boundaries = build_boundaries(options.boundary);
+  const fluid::Boundaries boundaries = build_boundaries(options);
   auto grid = build_grid(comm, options);
   check_flow(*grid, options);
   const poisson::SolverOptions solver{.kind = options.pressure.solver == config::PressureSolver::Petsc ? "petsc"

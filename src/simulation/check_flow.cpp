@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/check_flow.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
+
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "fluid/boundary.hpp"
@@ -40,10 +45,30 @@ void check_sheet_inside(const config::Case& options, const SheetRange& sheet, st
       }
 }
 
-/// Throws, on every rank, if the velocity at t = 0 is no number at the centre of one of the cells (global indices; each
-/// rank looks at its own).  Sides look at the centres of the cells beside them.
-void check_finite(const grid::Grid& grid, const IndexBox& cells, const config::VectorExpression& velocity,
-                  const std::string& key)
+/// One number, or the three of a vector, somewhere at t = 0.
+using ValueAt = std::function<std::vector<double>(const Vec3& x)>;
+
+ValueAt at_start(const config::VectorExpression& vector)
+{
+  return [&vector](const Vec3& x) {
+    const Vec3 v = vector.evaluate(x, 0.0);
+    return std::vector<double>{v[0], v[1], v[2]};
+  };
+}
+
+ValueAt at_start(const config::Expression& scalar)
+{
+  return [&scalar](const Vec3& x) { return std::vector<double>{scalar.evaluate(x, 0.0)}; };
+}
+
+bool all_finite(const std::vector<double>& values)
+{
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+/// Throws, on every rank, if the value is no number at the centre of one of the cells (global indices; each rank looks
+/// at its own).  Sides look at the centres of the cells beside them.
+void check_finite(const grid::Grid& grid, const IndexBox& cells, const ValueAt& value, const std::string& key)
 {
   const auto& n = grid.cells();
   const double none = std::numeric_limits<double>::max();
@@ -51,7 +76,7 @@ void check_finite(const grid::Grid& grid, const IndexBox& cells, const config::V
   const IndexBox mine = intersection(cells, grid.owned());
   for_each_cell_in_order(mine, [&](int i, int j, int k) {
     const double number = i + double(n[0]) * (j + double(n[1]) * k);
-    if (number < first && !velocity.evaluate(grid.centre(i, j, k), 0.0).allFinite())
+    if (number < first && !all_finite(value(grid.centre(i, j, k))))
       first = number;
   });
   first = -grid.ranks().max(-first);
@@ -60,11 +85,12 @@ void check_finite(const grid::Grid& grid, const IndexBox& cells, const config::V
   const auto number = static_cast<long>(first);
   const Vec3 x = grid.centre_of_any({static_cast<int>(number % n[0]), static_cast<int>(number / n[0] % n[1]),
                                      static_cast<int>(number / n[0] / n[1])});
-  const Vec3 u = velocity.evaluate(x, 0.0);
+  const std::vector<double> values = value(x);
+  const std::string shown = fmt::format("{}", fmt::join(values, ", "));
   fail_input(
-      "{} is [{}, {}, {}] at ({:.6g}, {:.6g}, {:.6g}), t = 0; it must be a number everywhere: guard the formula there, "
+      "{} is {} at ({:.6g}, {:.6g}, {:.6g}), t = 0; it must be a number everywhere: guard the formula there, "
       "as in \"x > 0 ? 1/x : 0\"",
-      key, u[0], u[1], u[2], x[0], x[1], x[2]);
+      key, values.size() > 1 ? "[" + shown + "]" : shown, x[0], x[1], x[2]);
 }
 
 /// The owned cells beside a side of the domain.
@@ -78,17 +104,29 @@ IndexBox cells_beside(const grid::Grid& grid, int axis, int end)
 void check_initial_velocity(const grid::Grid& grid, const config::InitialOptions& initial)
 {
   const IndexBox cells = initial.velocity.is_constant() ? IndexBox{{0, 0, 0}, {1, 1, 1}} : grid.ranks().domain();
-  refusing_at(initial.mark, [&] { check_finite(grid, cells, initial.velocity, "fluid.initial.velocity"); });
+  refusing_at(initial.mark, [&] { check_finite(grid, cells, at_start(initial.velocity), "fluid.initial.velocity"); });
+}
+
+void check_side(const grid::Grid& grid, const config::Case& options, int axis, int end)
+{
+  const config::SideOptions& side = options.boundary.sides[2 * axis + end];
+  const IndexBox cells = cells_beside(grid, axis, end);
+  const std::string key = fmt::format("boundary.{}.", options.boundary.names()[2 * axis + end]);
+  if (side.value)
+    check_finite(grid, cells, at_start(*side.value), key + "value");
+  if (side.flow_rate)
+    check_finite(grid, cells, at_start(*side.flow_rate), key + "flow_rate");
+  check_finite(grid, cells, at_start(side.pressure), key + "pressure");
 }
 
 void check_sides(const grid::Grid& grid, const config::Case& options)
 {
   for (int a = 0; a < 3; ++a)
     for (int end = 0; end < 2; ++end)
-      check_finite(grid, cells_beside(grid, a, end), options.boundary.sides[2 * a + end].value,
-                   fmt::format("boundary.{}.value", options.boundary.names()[2 * a + end]));
+      check_side(grid, options, a, end);
   // A flow that grows from rest brings in nothing at t = 0.
-  fluid::BoundaryConditions conditions(grid, build_boundaries(options.boundary));
+  fluid::BoundaryConditions conditions(grid, build_boundaries(options),
+                                       options.fluid->viscosity / options.fluid->density);
   for (const double t : {0.0, options.time.step, 0.5 * options.time.end, options.time.end})
     conditions.evaluate_at(t);
 }

@@ -18,8 +18,21 @@ namespace luff::simulation {
 
 namespace {
 
+/// Over all ranks.
+double side_area(const grid::Grid& grid, int axis, int end)
+{
+  double area = 0.0;
+  IndexBox beside = grid.ranks().domain();
+  (end == 0 ? beside.hi : beside.lo)[axis] = end == 0 ? 1 : grid.cells()[axis] - 1;
+  for_each_cell_in_order(intersection(beside, grid.owned()), [&](int i, int j, int k) {
+    const Index3 face = stepped({i, j, k}, axis, end);
+    area += grid.area(axis, face[0], face[1], face[2]);
+  });
+  return grid.ranks().sum(area);
+}
+
 /// Fastest of the initial velocity in the middle of the domain and of what the sides prescribe in their middle, at t =
-/// 0.
+/// 0; of flow rates their mean over the side.
 double reference_speed(const config::Case& options, const grid::Grid& grid)
 {
   const Index3 middle{grid.cells()[0] / 2, grid.cells()[1] / 2, grid.cells()[2] / 2};
@@ -30,8 +43,10 @@ double reference_speed(const config::Case& options, const grid::Grid& grid)
       Index3 beside = middle;
       beside[a] = end == 0 ? 0 : grid.cells()[a] - 1;
       const Vec3 x = grid.centre_of_any(beside);
-      if (side.type == config::SideType::Velocity || side.type == config::SideType::Wall)
-        speed = std::max(speed, side.value.evaluate(x, 0.0).norm());
+      if (side.value)
+        speed = std::max(speed, side.value->evaluate(x, 0.0).norm());
+      if (side.flow_rate)
+        speed = std::max(speed, std::abs(side.flow_rate->evaluate(x, 0.0)) / side_area(grid, a, end));
     }
   return speed;
 }

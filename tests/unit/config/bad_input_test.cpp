@@ -40,9 +40,8 @@ const BadInput keys[] = {
     {"AKeyOfAnInlineTableIsMissing", ", poisson = 0.4", "",
      "case.toml:25: shell.material.poisson is missing: give a number in (-1, 0.5]"},
     {"AWordIsMissing", "type = \"velocity\", ", "",
-     "case.toml:14: boundary.x_min.type is missing: give \"velocity\", \"wall\", \"slip\", \"symmetry\", \"periodic\" "
-     "or "
-     "\"outflow\""},
+     "case.toml:14: boundary.x_min.type is missing: give \"velocity\", \"wall\", \"slip\", \"symmetry\", \"periodic\", "
+     "\"outflow\" or \"pressure\""},
     {"ATableIsMissing", "[time]\nend = 2.0\nstep = 0.01\n", "", "case.toml: time is missing: give the table [time]"},
     {"ASideHasNoCondition", "y_max = { type = \"slip\" }\n", "",
      "case.toml:13: boundary.y_max is missing: give the table [boundary.y_max]"},
@@ -83,7 +82,7 @@ const BadInput values[] = {
      "case.toml:43: output.probe.point[2] = \"a\" must be a number"},
     {"AWordIsMisspelt", "\"outflow\"", "\"outfow\"",
      "case.toml:15: boundary.x_max.type = \"outfow\" must be \"velocity\", \"wall\", \"slip\", \"symmetry\", "
-     "\"periodic\" or \"outflow\" (did you mean \"outflow\"?)"},
+     "\"periodic\", \"outflow\" or \"pressure\" (did you mean \"outflow\"?)"},
     {"ABendingIsUnknown", "thickness = ", "bending = \"qvag\"\nthickness = ",
      "case.toml:23: shell.bending = \"qvag\" must be \"qavg\", \"patch4\" or \"hinge\" (did you mean \"qavg\"?)"},
     {"AWordIsANumber", "type = \"clamped\"", "type = 3",
@@ -180,9 +179,23 @@ const BadInput rules[] = {
     {"APeriodicSideIsAlone", "z_max = { type = \"periodic\" }", "z_max = { type = \"slip\" }",
      "case.toml:18: boundary.z_min.type = \"periodic\" must be paired: z_max is not periodic"},
     {"AVelocitySideHasNoVelocity", ", value = [1, 0, 0]", "",
-     "case.toml:14: boundary.x_min.value is missing: give [x, y, z], each a number, a formula of x, y, z, t, or { "
-     "file, "
-     "scale }"},
+     "case.toml:14: boundary.x_min.flow_rate or `value` must be given, one of the two"},
+    {"AVelocitySideHasTwo", "value = [1, 0, 0]", "value = [1, 0, 0], flow_rate = 3",
+     "case.toml:14: boundary.x_min.flow_rate = 3 or `value` must be given, one of the two"},
+    {"AFlowRateChangesWithPlace", "value = [1, 0, 0]", "flow_rate = \"x\"",
+     "case.toml:14: boundary.x_min.flow_rate = \"x\" may change with t, but not with x, y, z"},
+    {"AProfileHasNoFlowRate", "value = [1, 0, 0]", "value = [1, 0, 0], profile = \"parabolic\"",
+     "case.toml:14: boundary.x_min.profile goes only with `flow_rate`"},
+    {"AProfileIsMisspelt", "value = [1, 0, 0]", "flow_rate = 3, profile = \"parabola\"",
+     "case.toml:14: boundary.x_min.profile = \"parabola\" must be \"plug\", \"parabolic\" or \"womersley\" (did you "
+     "mean "
+     "\"parabolic\"?)"},
+    {"WomersleysProfileHasNoPeriod", "value = [1, 0, 0]", "flow_rate = 3, profile = \"womersley\"",
+     "case.toml:14: boundary.x_min.period is missing: give a number > 0"},
+    {"APressureSideHasNoPressure", "x_max = { type = \"outflow\" }", "x_max = { type = \"pressure\" }",
+     "case.toml:15: boundary.x_max.pressure is missing: give a number, a formula of x, y, z, t, or { file, scale }"},
+    {"APressureBelongsToAnotherType", "x_max = { type = \"outflow\" }", "x_max = { type = \"outflow\", pressure = 2 }",
+     "case.toml:15: boundary.x_max.pressure goes only with `type = \"pressure\"`"},
     {"AValueBelongsToAnotherType", "x_max = { type = \"outflow\" }",
      "x_max = { type = \"outflow\", value = [1, 0, 0] }",
      "case.toml:15: boundary.x_max.value goes only with `type = \"velocity\"` or `type = \"wall\"`"},
@@ -266,8 +279,6 @@ const BadInput not_yet[] = {
     {"Turbulence", "viscosity = 0.01", "viscosity = 0.01\nturbulence = { model = \"smagorinsky\" }",
      "case.toml:8: fluid.turbulence is not available in this version (available here: density, viscosity, body_force, "
      "initial)"},
-    {"FlowRates", "value = [1, 0, 0]", "value = [1, 0, 0], flow_rate = 3",
-     "case.toml:14: boundary.x_min.flow_rate is not available in this version (available here: type, value)"},
 };
 
 std::string name_of(const testing::TestParamInfo<BadInput>& info)
@@ -290,7 +301,7 @@ TEST(BadCaseFiles, AreComplainedAboutAtOnceInTheOrderOfTheFile)
   EXPECT_EQ(complaint_about(text),
             "case.toml:3: time.end = -2 must be a number > 0\n"
             "case.toml:15: boundary.x_max.type = \"outfow\" must be \"velocity\", \"wall\", \"slip\", \"symmetry\", "
-            "\"periodic\" or \"outflow\" (did you mean \"outflow\"?)\n"
+            "\"periodic\", \"outflow\" or \"pressure\" (did you mean \"outflow\"?)\n"
             "case.toml:20: shell.thickness is missing: give a number > 0\n"
             "case.toml:23: shell.thicknes is not a key of [shell] (did you mean 'thickness'?)");
 }

@@ -32,7 +32,7 @@ TEST(ACaseFile, SetsTimeFluidGridAndBoundary)
   EXPECT_EQ(c.grid.axes[0], (AxisOptions{-2.0, 8.0, 160, RefineOptions{-0.3, 1.6, 0.02}}));
   EXPECT_EQ(c.grid.axes[2], (AxisOptions{-2.0, 2.0, 100, std::nullopt}));
   EXPECT_EQ(c.boundary.sides[0].type, SideType::Velocity);
-  EXPECT_EQ(c.boundary.sides[0].value.evaluate(Vec3(0.0, 2.0, 0.0), 0.0), Vec3(-3.0, 0.0, 0.0));
+  EXPECT_EQ(c.boundary.sides[0].value->evaluate(Vec3(0.0, 2.0, 0.0), 0.0), Vec3(-3.0, 0.0, 0.0));
   EXPECT_EQ(c.boundary.sides[1].type, SideType::Outflow);
   EXPECT_EQ(c.boundary.sides[2].type, SideType::Wall);
   EXPECT_EQ(c.boundary.sides[3].type, SideType::Slip);
@@ -111,6 +111,69 @@ TEST(ACaseFile, SetsSolversAndOutput)
   EXPECT_TRUE(c.output.plots);
   EXPECT_EQ(c.output.probes[0], (ProbeOptions{"tip", "flag", Vec3(1.0, 0.0, 0.0)}));
   EXPECT_EQ(c.output.probes[1].shell, std::nullopt);
+}
+
+TEST(ASide, HasAFlowRateWithAProfileOrAPressure)
+{
+  const std::string text = R"case(
+[time]
+end = 1.0
+step = 0.1
+[fluid]
+density = 1000
+viscosity = 1e-3
+[grid]
+x = { from = 0, to = 1, cells = 4 }
+y = { from = 0, to = 1, cells = 4 }
+z = { from = 0, to = 1, cells = 4 }
+[boundary]
+x_min = { type = "velocity", flow_rate = "1 + sin(2*pi*t)", profile = "womersley", period = 1 }
+x_max = { type = "pressure", pressure = "100*t", entering = "developed" }
+y_min = { type = "wall" }
+y_max = { type = "wall" }
+z_min = { type = "velocity", flow_rate = 2 }
+z_max = { type = "pressure", pressure = 3 }
+)case";
+  const Case c = load_text(text);
+  const auto& sides = c.boundary.sides;
+  EXPECT_EQ(sides[0].value, std::nullopt);
+  EXPECT_EQ(sides[0].flow_rate->evaluate(Vec3::Zero(), 0.25), 2.0);
+  EXPECT_EQ(sides[0].profile, InflowShape::Womersley);
+  EXPECT_EQ(sides[0].period, 1.0);
+  EXPECT_EQ(sides[1].pressure.evaluate(Vec3::Zero(), 2.0), 200.0);
+  EXPECT_EQ(sides[1].entering, EnteringFluid::Developed);
+  EXPECT_EQ(sides[4].profile, InflowShape::Plug);
+  EXPECT_EQ(sides[5].entering, EnteringFluid::Reservoir);
+  EXPECT_EQ(load_text(written(c)), c);
+}
+
+TEST(AFileOfTimes, MayBeSmoothAndPeriodic)
+{
+  const TemporaryFolder folder;
+  folder.write("wave.csv", "0, 1\n0.5, 2\n1, 1\n");
+  const auto file = folder.write("case.toml", R"(
+[time]
+end = 1.0
+step = 0.1
+[fluid]
+density = 1
+viscosity = 1
+body_force = [{ file = "wave.csv", scale = 3, smooth = true, periodic = true }, 0, 0]
+[grid]
+x = { from = 0, to = 1, cells = 4 }
+y = { from = 0, to = 1, cells = 4 }
+z = { from = 0, to = 1, cells = 4 }
+[boundary]
+x_min = { type = "wall" }
+x_max = { type = "wall" }
+y_min = { type = "wall" }
+y_max = { type = "wall" }
+z_min = { type = "wall" }
+z_max = { type = "wall" }
+)");
+  const Case c = load_case(file);
+  EXPECT_NEAR(c.fluid->body_force.component[0].evaluate(Vec3::Zero(), 7.5), 6.0, 1e-13);
+  EXPECT_EQ(load_text(written(c)), c);
 }
 
 TEST(AShellAlone, MayFollowItsPathOfEquilibria)

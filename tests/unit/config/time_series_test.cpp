@@ -35,6 +35,55 @@ TEST(TimeSeries, KeepTheirFirstAndLastValueOutside)
   EXPECT_DOUBLE_EQ(series(30.0), 7.0);
 }
 
+TEST(TimeSeries, AreSmoothWithoutOvershootOnRequest)
+{
+  const TimeSeries series({0.0, 1.0, 2.0, 3.0, 5.0}, {0.0, 1.0, 1.0, 4.0, 5.0}, {.smooth = true});
+  double before = series(0.0);
+  for (int n = 1; n <= 500; ++n) {
+    const double now = series(0.01 * n);
+    EXPECT_GE(now, before);
+    before = now;
+  }
+  EXPECT_DOUBLE_EQ(series(1.5), 1.0);
+  EXPECT_DOUBLE_EQ(series(3.0), 4.0);
+  for (const double t : {1.0, 2.0, 3.0})
+    EXPECT_NEAR(series(t + 1e-6) - series(t), series(t) - series(t - 1e-6), 1e-11) << "slope at " << t;
+}
+
+TEST(TimeSeries, OfASmoothFunctionConvergeToThirdOrderAndMore)
+{
+  const auto error = [](int n) {
+    std::vector<double> times, values;
+    for (int i = 0; i <= n; ++i) {
+      times.push_back(1.5 * i / n);
+      values.push_back(std::exp(times.back()));
+    }
+    const TimeSeries series(times, values, {.smooth = true});
+    double largest = 0.0;
+    for (double t = 0.4; t < 1.1; t += 0.01)
+      largest = std::max(largest, std::abs(series(t) - std::exp(t)));
+    return largest;
+  };
+  EXPECT_GE(std::log2(error(40) / error(80)), 2.9);
+}
+
+TEST(TimeSeries, RepeatOnRequest)
+{
+  const TimeSeries series({1.0, 2.0, 3.0}, {0.0, 2.0, 0.0}, {.smooth = true, .periodic = true});
+  EXPECT_DOUBLE_EQ(series(2.0), 2.0);
+  EXPECT_NEAR(series(12.0), 2.0, 1e-14);
+  EXPECT_NEAR(series(-7.5), series(2.5), 1e-13);
+  EXPECT_NEAR(series(1.0 + 1e-6) - series(1.0), series(3.0) - series(3.0 - 1e-6), 1e-9);
+}
+
+TEST(TimeSeries, ThatDoNotEndAsTheyBeginAreRefusedToRepeat)
+{
+  const TemporaryFolder folder;
+  EXPECT_THROW(read_time_series(folder.write("wave.csv", "0, 1\n1, 2\n"), {.periodic = true}), InputError);
+  EXPECT_THROW(read_time_series(folder.write("wave.csv", "0, 1\n"), {.periodic = true}), InputError);
+  EXPECT_NO_THROW(read_time_series(folder.write("wave.csv", "0, 1\n0.5, 2\n1, 1\n"), {.periodic = true}));
+}
+
 TEST(TimeSeries, AreReadWithHeaderCommentsAndAnySeparator)
 {
   const TemporaryFolder folder;
