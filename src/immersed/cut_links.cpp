@@ -303,16 +303,21 @@ std::int64_t CutLinks::key(int axis, const Index3& cell) const
   return ((std::int64_t{axis} * (n[2] + 1) + cell[2]) * (n[1] + 1) + cell[1]) * (n[0] + 1) + cell[0];
 }
 
-/// Whether a face is one of this rank's: low faces are their cell's, the last ones of the domain those of the cell
-/// below.
-bool CutLinks::keeps(std::int64_t key) const
+std::pair<int, Index3> CutLinks::face_of(std::int64_t key) const
 {
   const Index3& n = grid_.cells();
   Index3 cell{};
   for (int a = 0; a < 3; key /= n[a] + 1, ++a)
     cell[a] = static_cast<int>(key % (n[a] + 1));
-  const auto axis = static_cast<int>(key);
-  if (cell[axis] == n[axis])
+  return {static_cast<int>(key), cell};
+}
+
+/// Whether a face is one of this rank's: low faces are their cell's, the last ones of the domain those of the cell
+/// below.
+bool CutLinks::keeps(std::int64_t key) const
+{
+  auto [axis, cell] = face_of(key);
+  if (cell[axis] == grid_.cells()[axis])
     --cell[axis];
   return grid_.owned().contains(cell);
 }
@@ -325,6 +330,10 @@ FluxOffsets CutLinks::accepted_offsets() const
       mine.face.push_back(face);
       mine.offset.push_back(offset);
     }
+  for (const InsideCell& inside : accepted_inside_) {
+    mine.inside.push_back(key(0, inside.cell));
+    mine.inside_body.push_back(inside.body);
+  }
   return mine;
 }
 
@@ -334,6 +343,10 @@ void CutLinks::restore(const FluxOffsets& of_all_ranks)
   for (std::size_t n = 0; n < of_all_ranks.face.size(); ++n)
     accepted_offsets_.emplace_back(of_all_ranks.face[n], of_all_ranks.offset[n]);
   std::sort(accepted_offsets_.begin(), accepted_offsets_.end());
+  accepted_inside_.clear();
+  for (std::size_t n = 0; n < of_all_ranks.inside.size(); ++n)
+    if (const Index3 cell = face_of(of_all_ranks.inside[n]).second; grid_.owned().contains(cell))
+      accepted_inside_.push_back({cell, static_cast<int>(of_all_ranks.inside_body[n])});
 }
 
 const std::pair<std::int64_t, double>* CutLinks::old_offset(std::int64_t key) const

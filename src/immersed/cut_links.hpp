@@ -66,8 +66,10 @@ inline constexpr int open_link = -1;
 
 /// Offsets of the fluxes of cut faces in the accepted state, by the number of the face in the whole grid.
 struct FluxOffsets {
-  std::vector<std::int64_t> face;  ///< ascending
-  std::vector<double> offset;      ///< eps [L/T]
+  std::vector<std::int64_t> face;         ///< ascending
+  std::vector<double> offset;             ///< eps [L/T]
+  std::vector<std::int64_t> inside;       ///< cells inside closed bodies, by their low face of axis 0
+  std::vector<std::int64_t> inside_body;  ///< number of the body
 };
 
 /// The cut links of one rank.  The geometry is frozen once per step; coupling iterations change the velocity only.
@@ -145,6 +147,8 @@ class CutLinks {
   void impose_fluxes_inside(const StageTime& time, const View3<double>& U) const;
   [[nodiscard]] std::vector<RigidVelocity> rigid_velocities(std::span<const Vec3> velocity) const;
   [[nodiscard]] std::int64_t key(int axis, const Index3& cell) const;
+  /// The cell whose low face a key stands for, and the axis.
+  [[nodiscard]] std::pair<int, Index3> face_of(std::int64_t key) const;
   [[nodiscard]] bool keeps(std::int64_t key) const;
   [[nodiscard]] const std::pair<std::int64_t, double>* old_offset(std::int64_t key) const;
   [[nodiscard]] bool was_cut(int axis, const Index3& cell) const { return old_offset(key(axis, cell)) != nullptr; }

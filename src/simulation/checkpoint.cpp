@@ -33,6 +33,8 @@ void transfer_offsets(File& file, Offsets& offsets)
 {
   file.pieces("flow/cut_face", offsets.face);
   file.pieces("flow/cut_face_offset", offsets.offset);
+  file.pieces("flow/inside_cell", offsets.inside);
+  file.pieces("flow/inside_body", offsets.inside_body);
 }
 
 template <class File, class Checkpoint>
@@ -153,6 +155,7 @@ struct Saved {
   const fluid::FlowState* flow = nullptr;
   immersed::FluxOffsets offsets = {};
   shell::Checkpoint shells = {};
+  std::vector<double> free_bodies = {};
   coupling::History history;
 };
 
@@ -174,6 +177,7 @@ Saved collect(const config::Case& options, Simulation& simulation, const Record&
   }
   if (structure.shells().dynamics)
     saved.shells = structure.shells().dynamics->checkpoint();
+  saved.free_bodies = structure.free_bodies();
   return saved;
 }
 
@@ -189,6 +193,7 @@ void put(File& file, const Saved& saved)
     transfer_offsets(file, saved.offsets);
   }
   transfer_shells(file, saved.shells);
+  file.value("bodies/free", saved.free_bodies);
   transfer_coupling(file, saved.history);
 }
 
@@ -250,6 +255,9 @@ Resumption resume(MPI_Comm comm, const RestartRequest& request, const config::Ca
   shell::Checkpoint shells;
   transfer_shells(file, shells);
   simulation.structure().restore(shells, progress.newton_iterations, progress.sharp_folds);
+  std::vector<double> free_bodies;
+  file.value("bodies/free", free_bodies);
+  simulation.structure().restore_free_bodies(free_bodies);
   coupling::History history;
   transfer_coupling(file, history);
   simulation.acceleration().restore(history);

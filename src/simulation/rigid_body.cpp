@@ -147,4 +147,23 @@ void RigidBody::accept(const Vec6& d, const Wrench& flow, double dt)
   started_ = true;
 }
 
+RigidBody::Checkpoint RigidBody::checkpoint() const
+{
+  Checkpoint saved{};
+  Eigen::Map<Eigen::Matrix<double, 20, 1>>(saved.data()) << accepted_.centre, accepted_.turn.coeffs(),
+      accepted_.velocity, accepted_.spin, accepted_flow_.force, accepted_flow_.moment, started_ ? 1.0 : 0.0;
+  return saved;
+}
+
+void RigidBody::restore(const Checkpoint& saved)
+{
+  const Eigen::Map<const Eigen::Matrix<double, 20, 1>> numbers(saved.data());
+  accepted_.centre = numbers.segment<3>(0);
+  accepted_.turn.coeffs() = numbers.segment<4>(3);
+  accepted_.velocity = numbers.segment<3>(7);
+  accepted_.spin = numbers.segment<3>(10);
+  accepted_flow_ = {numbers.segment<3>(13), numbers.segment<3>(16)};
+  started_ = numbers[19] != 0.0;
+}
+
 }  // namespace luff::simulation

@@ -72,6 +72,10 @@ class RigidBody {
   void accept(const Vec6& d, const Wrench& flow, double dt);
 
   [[nodiscard]] const RigidState& accepted() const { return accepted_; }
+  /// All that the next step starts from, as numbers.
+  using Checkpoint = std::array<double, 20>;
+  [[nodiscard]] Checkpoint checkpoint() const;
+  void restore(const Checkpoint& saved);
   [[nodiscard]] const RigidBodyProperties& properties() const { return properties_; }
 
  private:

@@ -223,6 +223,25 @@ void Structure::restore(const shell::Checkpoint& shells, long newton_iterations,
   sharp_folds_ = sharp_folds;
 }
 
+std::vector<double> Structure::free_bodies() const
+{
+  std::vector<double> saved;
+  for_each_free(rigid_, first_rigid_vertex_, [&](const RigidSheet& sheet, int, int) {
+    const RigidBody::Checkpoint own = sheet.free->checkpoint();
+    saved.insert(saved.end(), own.begin(), own.end());
+  });
+  return saved;
+}
+
+void Structure::restore_free_bodies(const std::vector<double>& saved)
+{
+  for_each_free(rigid_, first_rigid_vertex_, [&](RigidSheet& sheet, int, int n) {
+    RigidBody::Checkpoint own;
+    std::copy_n(saved.begin() + n * static_cast<std::ptrdiff_t>(own.size()), own.size(), own.begin());
+    sheet.free->restore(own);
+  });
+}
+
 std::vector<Vec3> Structure::accepted_positions(double t) const
 {
   std::vector<Vec3> positions;

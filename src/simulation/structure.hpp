@@ -108,6 +108,9 @@ class Structure {
   [[nodiscard]] shell::EnergyLedger energy() const;
   /// Go on from an earlier run's accepted state: its shells' and how many there were of what is counted.
   void restore(const shell::Checkpoint& shells, long newton_iterations, long sharp_folds);
+  /// The accepted states of the free bodies, one after the other.
+  [[nodiscard]] std::vector<double> free_bodies() const;
+  void restore_free_bodies(const std::vector<double>& saved);
   /// Null without contact.
   [[nodiscard]] const shell::ContactStep* contact() const
   {

@@ -151,6 +151,17 @@ TEST_F(Restart, GivesTheSameBitsOnTwoRanks)
             0);
 }
 
+TEST_F(Restart, GivesTheSameBitsOfAClosedBodyThatTheFlowMoves)
+{
+  prepare(small_ball);
+  const Outcome run = go_on();
+  ASSERT_EQ(run.status, 0) << run.said;
+  expect_same_files(whole, parts);
+  EXPECT_EQ(difference(whole / "checkpoint-00000010.h5", parts / "checkpoint-00000010.h5",
+                       flow_names + Words{"bodies/free"}),
+            0);
+}
+
 TEST_F(Restart, GivesTheSameBitsWithAitkensFactor)
 {
   prepare(changed(small_flag, "[output]\n", "[coupling]\nacceleration = \"aitken\"\n[output]\n"));

@@ -141,4 +141,32 @@ inline std::string changed(std::string text, const std::string& from, const std:
   return text.replace(position, from.size(), to);
 }
 
+/// A ball lighter than the fluid in a stream, free but for a spring, five steps.
+inline const std::string small_ball = R"toml(title = "Small ball"
+[time]
+end = 0.1
+step = 0.02
+[fluid]
+density = 1.0
+viscosity = 0.01
+initial.velocity = [1.0, 0.0, 0.0]
+[grid]
+x = { from = -1.0, to = 2.0, cells = 24 }
+y = { from = -1.0, to = 1.0, cells = 16 }
+z = { from = -1.0, to = 1.0, cells = 16 }
+[boundary]
+x_min = { type = "velocity", value = [1.0, 0.0, 0.0] }
+x_max = { type = "outflow" }
+y_min = { type = "slip" }
+y_max = { type = "slip" }
+z_min = { type = "slip" }
+z_max = { type = "slip" }
+[[body]]
+name = "ball"
+mesh = { shape = "sphere-cap", centre = [0, 0.01, 0.02], radius = 0.4, polar = { from = 0, to = 180 }, rings = 8 }
+motion = { type = "free", density = 0.1, stiffness = [2, 0, 0], gravity = [0, 0, -1], spin = [0, 1, 0] }
+[output]
+fields = { every = 0.05 }
+)toml";
+
 }  // namespace luff::test
