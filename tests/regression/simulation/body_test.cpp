@@ -17,8 +17,10 @@ TEST(AFreeBody, IsMovedByTheFlowAndLeavesItsTables)
   const auto motion = read_table(folder.path() / "out/motion-ball.csv");
   ASSERT_EQ(motion.rows.size(), 5U);
   EXPECT_GT(motion.column("centre_x [length]").back(), 0.001) << "the stream takes it along";
-  EXPECT_LT(motion.column("velocity_z [velocity]").back(), -0.01) << "it falls";
-  EXPECT_NEAR(motion.column("rotation_y [degrees]").back(), 180.0 / M_PI * 0.1, 1.0);
+  EXPECT_LT(motion.column("velocity_z [velocity]").back(), 0.0) << "it falls";
+  const double turn = motion.column("rotation_y [degrees]").back();
+  EXPECT_GT(turn, 0.0) << "it spins on";
+  EXPECT_LT(turn, 180.0 / M_PI * 0.1) << "less far than without the fluid";
   const auto forces = read_table(folder.path() / "out/forces-ball.csv");
   EXPECT_LT(forces.column("moment_y [moment]").back(), 0.0) << "the fluid slows its spin down";
   for (const double force : forces.column("force_minus_x [force]"))

@@ -34,10 +34,13 @@ TEST(RunFolder, TheNextNumberFollowsTheHighestEvenWhereOthersAreGone)
 TEST(RunFolder, AChosenFolderIsMadeWithItsParents)
 {
   const ScratchFolder scratch;
-  const auto folder = RunFolder::at(MPI_COMM_SELF, scratch.path() / "a" / "b");
-  EXPECT_TRUE(fs::is_directory(scratch.path() / "a" / "b"));
-  EXPECT_TRUE(fs::is_empty(folder.path()));
-  EXPECT_NO_THROW(RunFolder::at(MPI_COMM_SELF, folder.path())) << "an empty folder may be used";
+  const fs::path chosen = scratch.path() / "a" / "b";
+  {
+    const auto folder = RunFolder::at(MPI_COMM_SELF, chosen);
+    EXPECT_TRUE(fs::is_directory(chosen));
+    EXPECT_TRUE(fs::is_empty(folder.path()));
+  }
+  EXPECT_NO_THROW(RunFolder::at(MPI_COMM_SELF, chosen)) << "an empty folder may be used";
 }
 
 TEST(RunFolder, AFolderThatHoldsSomethingIsRefusedAndLeftAsItIs)
