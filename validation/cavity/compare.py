@@ -66,6 +66,10 @@ def references(case):
     }
 
 
+def probe_name(component, s):
+    return f"{component}-{s}".replace(".", "_")
+
+
 def write_case(case, cells, end, out):
     depth, layers, ends = (1.0 / cells, 1, "symmetry") if case == "plane" else (0.5, cells // 2, "wall")
     text = CASE.format(end=end, cells=cells, depth=depth, layers=layers, ends=ends)
@@ -74,7 +78,7 @@ def write_case(case, cells, end, out):
         for component, points in source.items():
             for s, _ in inside(points):
                 place = [0.5, s, middle] if component == "u" else [s, 0.5, middle]
-                name = f"{component}-{s}"
+                name = probe_name(component, s)
                 if f'"{name}"' not in text:
                     text += f'[[output.probe]]\nname = "{name}"\npoint = {place}\n'
     out.mkdir(parents=True, exist_ok=True)
@@ -83,7 +87,7 @@ def write_case(case, cells, end, out):
 
 def probe(run, component, s):
     """Last value, and how far it moved over the last tenth of the run."""
-    with open(run / f"probe-{component}-{s}.csv") as file:
+    with open(run / f"probe-{probe_name(component, s)}.csv") as file:
         rows = list(csv.reader(file))
     column = next(n for n, head in enumerate(rows[0]) if head.startswith("velocity_" + "xy"["uv".index(component)]))
     return float(rows[-1][column]), abs(float(rows[-1][column]) - float(rows[-len(rows) // 10][column]))
