@@ -189,21 +189,9 @@ void CurvilinearCorrection::correct_across_rows(int axis, const View<double>& U,
 template <class T>
 void CurvilinearCorrection::correct_plane_of(const View3<double>& U, const View<const T>& p, double factor, int t)
 {
-  const IndexBox& box = grid_.owned();
-  for_rows(t, [&](int j, int k) {
-    correct_along_row(U[0], p, factor, j, k);
-    correct_across_rows(1, U[1], p, factor, j, k);
-    correct_across_rows(2, U[2], p, factor, j, k);
-  });
-  const int inner = 3 - outer_;
-  Index3 last{};
-  last[outer_] = t;
-  last[inner] = box.hi[inner];
-  correct_across_rows(inner, U[inner], p, factor, last[1], last[2]);
-  if (t + 1 == box.hi[outer_])
-    for_rows(t, [&](int j, int k) {
-      correct_across_rows(outer_, U[outer_], p, factor, outer_ == 1 ? j + 1 : j, outer_ == 2 ? k + 1 : k);
-    });
+  for_faces(
+      t, [&](int j, int k) { correct_along_row(U[0], p, factor, j, k); },
+      [&](int axis, int j, int k) { correct_across_rows(axis, U[axis], p, factor, j, k); });
 }
 
 void CurvilinearCorrection::correct_plane(const View3<double>& U, const View<const double>& p, double factor, int t)

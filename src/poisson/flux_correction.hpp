@@ -83,6 +83,25 @@ class FluxCorrection {
     for (int b = grid_.owned().lo[inner]; b < grid_.owned().hi[inner]; ++b)
       outer_ == 2 ? row(b, t) : row(t, b);
   }
+  /// The faces of plane t, each once: along(j, k) for those along a row, across(axis, j, k) for the low faces of a row;
+  /// the last plane takes its high faces too.
+  template <class Along, class Across>
+  void for_faces(int t, Along along, Across across) const
+  {
+    const IndexBox& box = grid_.owned();
+    for_rows(t, [&](int j, int k) {
+      along(j, k);
+      across(1, j, k);
+      across(2, j, k);
+    });
+    const int inner = 3 - outer_;
+    Index3 last{};
+    last[outer_] = t;
+    last[inner] = box.hi[inner];
+    across(inner, last[1], last[2]);
+    if (t + 1 == box.hi[outer_])
+      for_rows(t, [&](int j, int k) { across(outer_, outer_ == 1 ? j + 1 : j, outer_ == 2 ? k + 1 : k); });
+  }
 
   const grid::Grid& grid_;
   SideConditions sides_;

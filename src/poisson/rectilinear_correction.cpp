@@ -113,24 +113,12 @@ void RectilinearCorrection::correct_across_rows(int axis, const View<double>& U,
 template <class T>
 void RectilinearCorrection::correct_plane_of(const View3<double>& U, const View<const T>& p, double factor, int t)
 {
-  const IndexBox& box = grid_.owned();
-  const int plane = t - box.lo[outer_];
+  const int plane = t - grid_.owned().lo[outer_];
   for (int n = first_blocked_[plane]; n < first_blocked_[plane + 1]; ++n)
     kept_[n] = U[blocked_[n].axis](blocked_[n].cell);
-  for_rows(t, [&](int j, int k) {
-    correct_along_row(U[0], p, factor, j, k);
-    correct_across_rows(1, U[1], p, factor, j, k);
-    correct_across_rows(2, U[2], p, factor, j, k);
-  });
-  const int inner = 3 - outer_;
-  Index3 last{};
-  last[outer_] = t;
-  last[inner] = box.hi[inner];
-  correct_across_rows(inner, U[inner], p, factor, last[1], last[2]);
-  if (t + 1 == box.hi[outer_])
-    for_rows(t, [&](int j, int k) {
-      correct_across_rows(outer_, U[outer_], p, factor, outer_ == 1 ? j + 1 : j, outer_ == 2 ? k + 1 : k);
-    });
+  for_faces(
+      t, [&](int j, int k) { correct_along_row(U[0], p, factor, j, k); },
+      [&](int axis, int j, int k) { correct_across_rows(axis, U[axis], p, factor, j, k); });
   for (int n = first_blocked_[plane]; n < first_blocked_[plane + 1]; ++n)
     U[blocked_[n].axis](blocked_[n].cell) = kept_[n];
 }
