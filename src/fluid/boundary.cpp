@@ -84,6 +84,8 @@ void BoundaryConditions::add_side(int axis, int end)
         {.place = grid_.face_centre(axis, i, j, k), .area = S, .normal = side.outward() * S.normalized()});
     side.section.push_back(c[others[0]] + static_cast<std::size_t>(row) * c[others[1]]);
   });
+  if (takes_velocity(boundary(side).kind))
+    side.gradient.emplace(grid_, axis, end, cells);
   sides_.push_back(std::move(side));
 }
 
@@ -255,6 +257,43 @@ void BoundaryConditions::add_entering_rate(const View3<const double>& u, const V
       }
     });
   }
+}
+
+void BoundaryConditions::add_wall_stress(const View3<const double>& u, const View3<const double>& U, double viscosity,
+                                         double weight, const View3<double>& rate, const View3<double>& increment) const
+{
+  for (const Side& side : sides_) {
+    if (!side.gradient)
+      continue;
+    for_each_side_cell(side, [&](const Index3& c, std::size_t) {
+      const Vec3 change = viscosity / grid_.volume(c[0], c[1], c[2]) * side.gradient->missing_flux(u, U, c);
+      for (int d = 0; d < 3; ++d) {
+        rate[d](c) += change[d];
+        increment[d](c) += weight * change[d];
+      }
+    });
+  }
+}
+
+std::vector<SideStress> BoundaryConditions::stresses(const View3<const double>& u, const View3<const double>& U,
+                                                     const View<const double>& p, double viscosity,
+                                                     bool walls_only) const
+{
+  std::vector<SideStress> all;
+  for (const Side& side : sides_) {
+    if (!side.gradient || (walls_only && boundary(side).kind != SideKind::Wall))
+      continue;
+    SideStress stress{.axis = side.axis, .end = side.end, .cells = side.cells, .shear = {}, .pressure = {}};
+    for_each_side_cell(side, [&](const Index3& c, std::size_t n) {
+      const Mat3 G = side.gradient->at(u, U, c);
+      const Vec3 normal = -side.faces[n].normal;
+      const Vec3 viscous = viscosity * (G + G.transpose()) * normal;
+      stress.shear.push_back(viscous - viscous.dot(normal) * normal);
+      stress.pressure.push_back(side.gradient->extrapolated(p, c));
+    });
+    all.push_back(std::move(stress));
+  }
+  return all;
 }
 
 void BoundaryConditions::fill_pressure(const View<double>& p) const

@@ -23,6 +23,7 @@
 
 #include "core/vec3.hpp"
 #include "fluid/inflow.hpp"
+#include "fluid/side_gradient.hpp"
 #include "grid/grid.hpp"
 #include "parallel/field.hpp"
 #include "parallel/halo.hpp"
@@ -73,6 +74,15 @@ using Boundaries = std::array<std::array<SideBoundary, 2>, 3>;
 [[nodiscard]] poisson::SideConditions pressure_conditions(const Boundaries& boundaries);
 [[nodiscard]] std::array<bool, 3> periodic_axes(const Boundaries& boundaries);
 
+/// What the fluid exerts on the faces of one side where its velocity is prescribed, per density.
+struct SideStress {
+  int axis = 0;
+  int end = 0;                   ///< 0 low, 1 high
+  IndexBox cells;                ///< owned cells beside the side
+  std::vector<Vec3> shear;       ///< tangential part of nu (grad u + grad u^T) n, n into the fluid [L^2/T^2]
+  std::vector<double> pressure;  ///< extrapolated to the face from the two cells beside it [L^2/T^2]
+};
+
 /// Sets halos and boundary fluxes of one rank's block.
 class BoundaryConditions {
  public:
@@ -95,6 +105,14 @@ class BoundaryConditions {
   ///   du <- du + w dN,  N <- N + dN,   dN = min(U . n, 0) u_P/(2 V).
   void add_entering_rate(const View3<const double>& u, const View3<const double>& U, double weight,
                          const View3<double>& rate, const View3<double>& increment) const;
+  /// What the rate of the cells beside prescribed velocities lacks: the kernels take the viscous flux through the side
+  /// from the mirrored halo, to first order; added is what makes it of second order (SideGradient),
+  ///
+  ///   du <- du + w dN,  N <- N + dN,   dN = nu/V (S . grad u - the mirrored one).
+  ///
+  /// Convection keeps u_b on the face.  u with valid halos.
+  void add_wall_stress(const View3<const double>& u, const View3<const double>& U, double viscosity, double weight,
+                       const View3<double>& rate, const View3<double>& increment) const;
   /// Halo of the pressure beyond the domain's sides; on open ones it tells the pressure solver what is given there.
   void fill_pressure(const View<double>& p) const;
   /// U* on the domain's sides; on open ones from the velocity u_old + increment of the cells beside them.
@@ -110,6 +128,11 @@ class BoundaryConditions {
   void subtract_side_gradient(const View3<const double>& U_old, const View3<const double>& increment,
                               const View3<double>& U);
 
+  /// Of each side with a prescribed velocity that this rank touches: all, or walls only.  u and p with valid halos; of
+  /// second order.
+  [[nodiscard]] std::vector<SideStress> stresses(const View3<const double>& u, const View3<const double>& U,
+                                                 const View<const double>& p, double viscosity, bool walls_only) const;
+
   /// Largest prescribed speed at the time of the last evaluation [L/T].
   [[nodiscard]] double largest_speed() const { return largest_speed_; }
   /// Largest prescribed kinematic pressure, in size, at the time of the last evaluation [L^2/T^2].  Collective.
@@ -124,12 +147,13 @@ class BoundaryConditions {
   };
   struct Side {
     int axis = 0;
-    int end = 0;                       ///< 0 low, 1 high
-    IndexBox cells;                    ///< owned cells beside the side
-    std::vector<Face> faces;           ///< of `cells`, i fastest; so are the following
-    std::vector<Vec3> velocity;        ///< prescribed
-    std::vector<double> pressure;      ///< prescribed
-    std::vector<std::size_t> section;  ///< numbers in the side's whole section, with a flow rate
+    int end = 0;                           ///< 0 low, 1 high
+    IndexBox cells;                        ///< owned cells beside the side
+    std::vector<Face> faces;               ///< of `cells`, i fastest; so are the following
+    std::vector<Vec3> velocity;            ///< prescribed
+    std::vector<double> pressure;          ///< prescribed
+    std::vector<std::size_t> section;      ///< numbers in the side's whole section, with a flow rate
+    std::optional<SideGradient> gradient;  ///< where the velocity is prescribed
     [[nodiscard]] double outward() const { return end == 0 ? -1.0 : 1.0; }
     /// The cell whose low face is the boundary face of a cell.
     [[nodiscard]] Index3 face(const Index3& c) const { return stepped(c, axis, end); }

@@ -183,6 +183,8 @@ void FlowSolver::advance_stage(int stage)
     const auto timer = profile_.time(Phase::Momentum);
     operators::advance_momentum(grid_, views(std::as_const(u_)), views(std::as_const(U_)), options_.viscosity, force,
                                 weights, views(rate_), views(increment_));
+    boundary_.add_wall_stress(views(std::as_const(u_)), views(std::as_const(U_)), options_.viscosity, weights.new_rate,
+                              views(rate_), views(increment_));
     boundary_.add_entering_rate(views(std::as_const(u_)), views(std::as_const(U_)), weights.new_rate, views(rate_),
                                 views(increment_));
   }
@@ -458,6 +460,19 @@ std::vector<immersed::SideTraction> FlowSolver::tractions() const
 {
   immersed::LoadFields fields = load_fields();
   return immersed::side_tractions(grid_, links_, fields, sheet_vertices_);
+}
+
+std::vector<SideStress> FlowSolver::side_stresses(bool walls_only) const
+{
+  std::vector<SideStress> sides =
+      boundary_.stresses(views(state_.u), views(state_.U), state_.p.view(), options_.viscosity, walls_only);
+  for (SideStress& side : sides) {
+    for (Vec3& shear : side.shear)
+      shear *= options_.density;
+    for (double& p : side.pressure)
+      p *= options_.density;
+  }
+  return sides;
 }
 
 double FlowSolver::largest_speed() const

@@ -80,6 +80,10 @@ class FlowSolver {
   /// Tractions per triangle and side by the trial (before accept) or accepted flow.
   [[nodiscard]] std::vector<immersed::SideTraction> tractions() const;
 
+  /// Shear stress and pressure by the accepted flow on this rank's sides with a prescribed velocity, or on walls only,
+  /// times the density [M/(L T^2)].  Halos filled by fill_halos().
+  [[nodiscard]] std::vector<SideStress> side_stresses(bool walls_only) const;
+
   /// Commits the trial flow as the state at t^{n+1}.
   void accept();
 

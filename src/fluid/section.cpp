@@ -68,6 +68,8 @@ Section::Section(const grid::Grid& grid, int axis, int end, const std::array<std
       area_.push_back(0.5 * (x11 - x00).cross(x01 - x10).norm());
       const Vec3 T_1 = 0.5 * (x10 - x00 + x11 - x01);
       const Vec3 T_2 = 0.5 * (x01 - x00 + x11 - x10);
+      centre_.push_back(0.25 * (x00 + x10 + x01 + x11));
+      corners_.push_back({x00, x10, x01, x11});
       const double J = T_1.cross(T_2).norm();
       metric_.push_back({T_2.squaredNorm() / J, T_1.squaredNorm() / J, -T_1.dot(T_2) / J});
     }
@@ -99,14 +101,39 @@ Section::Difference Section::difference(const std::array<int, 2>& face, int a, i
   if (next >= 0)
     return {{here, next}, {sign, -sign}, 2};
   if (no_slip_[a][end])
-    return {{here, here}, {2.0 * sign, 0.0}, 1};  // the wall is half a face away
+    return {{here, here}, {2.0 * sign, 0.0}, 1, true};  // the wall is half a face away
   return {};
+}
+
+/// Shear on the edge along a wall per w, L/(T.n) D_s w with D_s x = T: its length L, its normal n in the section, and
+/// the derivative of second order along the line of centres.
+WallDerivative Section::wall_shear(const std::array<int, 2>& face, int a, int end) const
+{
+  const int here = number(face);
+  const std::array<Vec3, 4>& x = corners_[here];
+  const int first = end == 0 ? 0 : 1 << a;
+  const Vec3& from = x[first];
+  const Vec3& to = x[first + (1 << (1 - a))];
+  const Vec3 on_wall = 0.5 * (from + to);
+  const Vec3 near = centre_[here] - on_wall;
+  const int next = beside(face, a, 1 - end);
+  const Vec3 far = next < 0 ? near : Vec3(centre_[next] - on_wall);
+  WallDerivative d =
+      next < 0 ? WallDerivative::at(near.norm()) : WallDerivative::at(near.norm(), near.norm() + (far - near).norm());
+  const Vec3 T = d.near * near + d.far * far;
+  const Vec3 edge = to - from;
+  const double L = edge.norm();
+  const double across = (T - T.dot(edge) / (L * L) * edge).norm();
+  d.near *= L / across;
+  d.far *= L / across;
+  return d;
 }
 
 /// The matrix is the second derivative of the energy
 ///
 ///   sum over edges of 1/2 a_e d_e^2  +  sum over faces of the mean over their four corners of G_12 d_1 d_2,
 ///
+/// but for the shear at walls, which is of second order as the flow has it (BoundaryConditions::add_wall_stress); with
 /// a_e the harmonic mean of G_aa on both sides.  At a corner whose edge carries no shear, d_1 takes the value that
 /// makes the corner's energy least: -1/2 G_12^2/G_11 d_2^2 instead of the product (the closure of the flow's pressure).
 std::vector<Complex> Section::developed_flow(Complex lambda) const
@@ -118,6 +145,12 @@ std::vector<Complex> Section::developed_flow(Complex lambda) const
       for (int n = 0; n < e.count; ++n)
         entries.emplace_back(d.face[m], e.face[n], factor * d.weight[m] * e.weight[n]);
   };
+  const auto add_wall = [&](const std::array<int, 2>& face, int a, int end) {
+    const WallDerivative d = wall_shear(face, a, end);
+    entries.emplace_back(number(face), number(face), d.near);
+    if (const int next = beside(face, a, 1 - end); next >= 0)
+      entries.emplace_back(number(face), next, d.far);
+  };
   for (int q = 0; q < n_[1]; ++q)
     for (int p = 0; p < n_[0]; ++p) {
       const std::array<int, 2> face{p, q};
@@ -128,14 +161,19 @@ std::vector<Complex> Section::developed_flow(Complex lambda) const
         for (int end = 0; end < 2; ++end) {
           d[a][end] = difference(face, a, end);
           const int next = beside(face, a, end);
-          // An edge between two faces is met from both: half of it each time; so is the half-face to a wall, a = 2 G.
+          // An edge between two faces is met from both: half of it each time.
           const double edge = next < 0 ? G[a] : 2.0 / (1.0 / G[a] + 1.0 / metric_[next][a]);
-          add(d[a][end], d[a][end], 0.5 * edge);
+          if (d[a][end].at_wall)
+            add_wall(face, a, end);
+          else
+            add(d[a][end], d[a][end], 0.5 * edge);
         }
       for (const Difference& d_1 : d[0])
         for (const Difference& d_2 : d[1]) {
-          add(d_1, d_2, 0.25 * G[2]);
-          add(d_2, d_1, 0.25 * G[2]);
+          if (!d_1.at_wall)
+            add(d_1, d_2, 0.25 * G[2]);
+          if (!d_2.at_wall)
+            add(d_2, d_1, 0.25 * G[2]);
           if (d_1.count == 0)
             add(d_2, d_2, -0.25 * G[2] * G[2] / G[0]);
           if (d_2.count == 0)

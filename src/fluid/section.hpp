@@ -6,6 +6,7 @@
 #include <complex>
 #include <vector>
 
+#include "fluid/side_gradient.hpp"
 #include "grid/grid.hpp"
 
 namespace luff::fluid {
@@ -42,15 +43,19 @@ class Section {
     std::array<int, 2> face{};
     std::array<double, 2> weight{};
     int count = 0;  ///< 0 at a rim without shear
+    bool at_wall = false;
   };
   [[nodiscard]] int number(const std::array<int, 2>& f) const { return f[0] + n_[0] * f[1]; }
   [[nodiscard]] Difference difference(const std::array<int, 2>& face, int a, int end) const;
   [[nodiscard]] int beside(const std::array<int, 2>& face, int a, int end) const;
+  [[nodiscard]] WallDerivative wall_shear(const std::array<int, 2>& face, int a, int end) const;
 
   std::array<int, 2> n_{};
   std::array<bool, 2> periodic_{};
   std::array<std::array<bool, 2>, 2> no_slip_{};
   std::vector<double> area_;
+  std::vector<Vec3> centre_;
+  std::vector<std::array<Vec3, 4>> corners_;  ///< of each face: the first axis fastest
   std::vector<Tensor> metric_;
 };
 

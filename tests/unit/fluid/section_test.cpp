@@ -137,13 +137,17 @@ double error_in_pipe(int across, double alpha)
 
 TEST(Section, FindsPoiseuillesAndWomersleysFlowThroughAPipe)
 {
+  // The largest error is that of the grid lines' kinks on the diagonals of the disc, whose order is 1.4 or so, where
+  // the profile is flat enough for it to show; Stokes' layer, 1/alpha thick, has 1.8 and more.
+  std::size_t m = 0;
+  constexpr std::array errors{3e-4, 5e-4, 1.2e-3, 2.5e-3};
   for (const double alpha : {0.0, 4.0, 10.0, 18.8}) {
-    // Stokes' layer, 1/alpha thick, needs a few cells before an order shows.
     const double coarse = error_in_pipe(48, alpha);
     const double fine = error_in_pipe(96, alpha);
     std::cout << "alpha " << alpha << ": error " << fine << ", order " << observed_order(coarse, fine) << "\n";
-    EXPECT_LE(fine, 0.01) << alpha;
-    EXPECT_GE(observed_order(coarse, fine), 1.7) << alpha;
+    EXPECT_LE(fine, errors[m]) << alpha;
+    EXPECT_GE(observed_order(coarse, fine), alpha < 5.0 ? 1.4 : 1.8) << alpha;
+    ++m;
   }
 }
 
