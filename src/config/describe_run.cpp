@@ -134,7 +134,9 @@ void describe(Schema& s, PressureOptions& pressure)
 
 void describe(Schema& s, ImmersedOptions& immersed)
 {
-  s.key("scheme", immersed.scheme, {.doc = "Cut links: differences across a surface end on it."});
+  s.key("scheme", immersed.scheme,
+        {.doc = "`cut-link`: differences across a surface end on it. `curvib`: the velocity of the cells beside a "
+                "surface is reconstructed along its normal."});
 }
 
 void describe(Schema& s, CouplingOptions& coupling)

@@ -390,7 +390,7 @@ struct PressureOptions {
   bool operator==(const PressureOptions&) const = default;
 };
 
-enum class ImmersedScheme { CutLink };
+enum class ImmersedScheme { CutLink, Curvib };
 
 /// [immersed]
 struct ImmersedOptions {

@@ -164,7 +164,7 @@ inline Words<PressureTolerance> words(PressureTolerance)
 
 inline Words<ImmersedScheme> words(ImmersedScheme)
 {
-  return {{{ImmersedScheme::CutLink, "cut-link"}}, {"curvib"}};
+  return {{{ImmersedScheme::CutLink, "cut-link"}, {ImmersedScheme::Curvib, "curvib"}}};
 }
 
 inline Words<CouplingScheme> words(CouplingScheme)

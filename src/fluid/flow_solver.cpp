@@ -54,6 +54,10 @@ FlowSolver::FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries b
 {
   if (grid.kind() == grid::Kind::Curvilinear)
     cross_terms_.emplace(grid);
+  if (options_.immersed == ImmersedScheme::Curvib) {
+    wall_nodes_.emplace(grid);
+    given_ = make_field3<double>(grid.owned());
+  }
 }
 
 void FlowSolver::start(const VectorFunction& velocity, double t_0)
@@ -104,6 +108,10 @@ void FlowSolver::begin_step(const TimeStep& step, const immersed::SheetMotion& p
   repair_pressure();
   for (auto& du : increment_)
     du.fill(0.0);
+  if (wall_nodes_) {
+    fill_velocity_halo(views(u_));
+    wall_nodes_->start_offsets(links_, views(std::as_const(u_)));
+  }
 
   advance_stage(0);
   freeze_pressure_push(0);
@@ -137,6 +145,8 @@ poisson::Report FlowSolver::project(std::span<const Vec3> sheet_velocity)
 void FlowSolver::accept()
 {
   links_.accept();
+  if (wall_nodes_)
+    wall_nodes_->accept(links_);
   state_.u = u_;
   std::swap(state_.U, U_);
   std::swap(state_.p_before, state_.p);
@@ -144,10 +154,13 @@ void FlowSolver::accept()
   ++state_.steps;
 }
 
-void FlowSolver::restore(FlowState state, const immersed::FluxOffsets& offsets, double t)
+void FlowSolver::restore(FlowState state, const immersed::FluxOffsets& offsets,
+                         const immersed::NodeOffsets& node_offsets, double t)
 {
   state_ = std::move(state);
   links_.restore(offsets);
+  if (wall_nodes_)
+    wall_nodes_->restore(node_offsets);
   boundary_.evaluate_at(t);
   u_ = state_.u;
   U_ = state_.U;
@@ -161,6 +174,8 @@ void FlowSolver::find_cut_links(const immersed::SheetMotion& predicted, double s
     links_.freeze(predicted, step_.dt, speed, views(std::as_const(state_.U)));
     if (cross_terms_)
       cross_terms_->freeze(links_);
+    if (wall_nodes_)
+      wall_nodes_->freeze(links_);
   }
   const auto timer = profile_.time(Phase::Pressure);
   std::vector<poisson::FaceIndex> blocked;
@@ -177,7 +192,10 @@ void FlowSolver::advance_stage(int stage)
   fill_velocity_halo(views(u_));
   const operators::StageWeights weights{step_.dt * stage_gamma[stage], step_.dt * stage_zeta[stage]};
   // Cut cells are computed first, from the increments and rates that the sweep over all cells overwrites.
-  replace_rates_of_cut_cells(stage, weights);
+  if (!wall_nodes_)
+    replace_rates_of_cut_cells(stage, weights);
+  else if (cross_terms_)
+    cross_terms_->update(links_, views(std::as_const(u_)), {stage_start[stage]});
   const Vec3 force = constant_part(options_.acceleration);
   {
     const auto timer = profile_.time(Phase::Momentum);
@@ -192,6 +210,8 @@ void FlowSolver::advance_stage(int stage)
     change_cross_terms_beside(weights);
   if (!options_.acceleration.constant)
     add_varying_force(weights, step_.t_old + stage_start[stage] * step_.dt);
+  if (wall_nodes_)
+    return;
   for (std::size_t n = 0; n < links_.cells().size(); ++n)
     for (int d = 0; d < 3; ++d)
       rate_[d].view()(links_.cells()[n].cell) = terms_[n].explicit_rate[d];
@@ -203,7 +223,6 @@ void FlowSolver::replace_rates_of_cut_cells(int stage, const operators::StageWei
   const std::vector<immersed::CutCell>& cells = links_.cells();
   terms_.resize(cells.size());
   explicit_increment_.resize(cells.size());
-  u_star_.resize(cells.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t n = 0; n < cells.size(); ++n)
     terms_[n] = immersed::momentum_terms(grid_, links_, cells[n], views(std::as_const(u_)), options_.viscosity,
@@ -266,25 +285,52 @@ void FlowSolver::freeze_pressure_push(int stage)
   pressure_push_.resize(cells.size());
   for (std::size_t n = 0; n < cells.size(); ++n)
     pressure_push_[n] = stage_end[stage] * step_.dt * immersed::pressure_gradient(grid_, cells[n], p_.view());
+  if (wall_nodes_)
+    give_to_wall_nodes(stage);
 }
 
-/// u* = [u^n + du + delta dt sum v_k u_b - c dt G p]/(1 + delta dt sum v_k) in cut cells, and du from it.
+/// u^n + du - c dt G p of the latest pressure in the donors of wall nodes.
+void FlowSolver::give_to_wall_nodes(int stage)
+{
+  constexpr int open = immersed::open_link;
+  for (const Index3& c : wall_nodes_->donors()) {
+    const Vec3 push = stage_end[stage] * step_.dt *
+                      immersed::pressure_gradient(grid_, {c, {open, open, open, open, open, open}}, p_.view());
+    for (int d = 0; d < 3; ++d)
+      given_[d].view()(c) = state_.u[d].view()(c) + increment_[d].view()(c) - push[d];
+  }
+  fill_velocity_halo(views(given_));
+}
+
+/// u* = [u^n + du + delta dt sum v_k u_b - c dt G p]/(1 + delta dt sum v_k) of a cut cell.
+Vec3 FlowSolver::momentum_beside_wall(std::size_t n, int stage, bool current_velocity) const
+{
+  const double implicit = stage_delta[stage] * step_.dt;
+  const immersed::CutCell& cut = links_.cells()[n];
+  const Vec3 source = current_velocity
+                          ? immersed::wall_source(grid_, links_, cut, options_.viscosity, {1.0, SheetVelocity::Current})
+                          : terms_[n].wall_source;
+  const Vec3 u_old = at(views(state_.u), cut.cell);
+  return (u_old + explicit_increment_[n] + implicit * source - pressure_push_[n]) /
+         (1.0 + implicit * terms_[n].wall_rate);
+}
+
+/// u* of cut cells, by their momentum or along the normal of the sheet, and du = u* + c dt G p - u^n.
 void FlowSolver::bind_to_walls(int stage, bool current_velocity)
 {
   const auto timer = profile_.time(Phase::CutCells);
-  const double implicit = stage_delta[stage] * step_.dt;
   const std::vector<immersed::CutCell>& cells = links_.cells();
+  u_star_.resize(cells.size());
+  if (wall_nodes_)
+    wall_nodes_->reconstruct(links_,
+                             {stage_end[stage], current_velocity ? SheetVelocity::Current : SheetVelocity::Predicted},
+                             views(given_));
 #pragma omp parallel for schedule(static)
   for (std::size_t n = 0; n < cells.size(); ++n) {
-    const immersed::CutCell& cut = cells[n];
-    const Vec3 source =
-        current_velocity ? immersed::wall_source(grid_, links_, cut, options_.viscosity, {1.0, SheetVelocity::Current})
-                         : terms_[n].wall_source;
-    const Vec3& push = pressure_push_[n];
-    const Vec3 u_old = at(views(std::as_const(state_.u)), cut.cell);
-    u_star_[n] = (u_old + explicit_increment_[n] + implicit * source - push) / (1.0 + implicit * terms_[n].wall_rate);
+    const Index3& c = cells[n].cell;
+    u_star_[n] = wall_nodes_ ? at(views(std::as_const(given_)), c) : momentum_beside_wall(n, stage, current_velocity);
     for (int d = 0; d < 3; ++d)
-      increment_[d].view()(cut.cell) = u_star_[n][d] + push[d] - u_old[d];
+      increment_[d].view()(c) = u_star_[n][d] + pressure_push_[n][d] - state_.u[d].view()(c);
   }
 }
 
@@ -453,12 +499,16 @@ immersed::LoadFields FlowSolver::load_fields() const
 immersed::SheetLoads FlowSolver::loads() const
 {
   const auto timer = profile_.time(Phase::Loads);
+  if (wall_nodes_)
+    return immersed::loads_of_tractions(links_, tractions());
   return immersed::sheet_loads(grid_, links_, load_fields(), sheet_vertices_);
 }
 
 std::vector<immersed::SideTraction> FlowSolver::tractions() const
 {
-  immersed::LoadFields fields = load_fields();
+  const immersed::LoadFields fields = load_fields();
+  if (wall_nodes_)
+    return immersed::node_tractions(grid_, links_, *wall_nodes_, fields);
   return immersed::side_tractions(grid_, links_, fields, sheet_vertices_);
 }
 

@@ -30,13 +30,23 @@
 #include "immersed/cut_cells.hpp"
 #include "immersed/cut_links.hpp"
 #include "immersed/loads.hpp"
+#include "immersed/wall_nodes.hpp"
 #include "operators/momentum.hpp"
 #include "parallel/halo.hpp"
 #include "poisson/pressure_solver.hpp"
 
 namespace luff::fluid {
 
+/// How the flow sees sheets and bodies (docs/numerics/immersed.md, docs/numerics/curvib.md).  The links they cut carry
+/// no pressure, and their faces the sheet's flux, in both.  They differ in the velocity of the cells beside them and in
+/// the loads.
+enum class ImmersedScheme {
+  CutLink,  ///< momentum with differences that end on the sheet; loads link by link
+  Curvib    ///< velocity reconstructed along the normal; loads by side and triangle from the nodes beside it
+};
+
 struct FlowOptions {
+  ImmersedScheme immersed = ImmersedScheme::CutLink;
   double density = 1.0;
   double viscosity = 0.0;                                               ///< kinematic [L^2/T]
   VectorFunction acceleration = VectorFunction::uniform(Vec3::Zero());  ///< body force per mass [L/T^2]
@@ -89,10 +99,13 @@ class FlowSolver {
 
   /// Go on from an accepted state at time t and the offsets of all ranks' cut faces: with state() and
   /// links().accepted_offsets() of the same grid, boundaries and options the same bits as going on. Collective.
-  void restore(FlowState state, const immersed::FluxOffsets& offsets, double t);
+  void restore(FlowState state, const immersed::FluxOffsets& offsets, const immersed::NodeOffsets& node_offsets,
+               double t);
 
   [[nodiscard]] const FlowState& state() const { return state_; }
   [[nodiscard]] const immersed::CutLinks& links() const { return links_; }
+  /// Null with the scheme "cut-link".
+  [[nodiscard]] const immersed::WallNodes* wall_nodes() const { return wall_nodes_ ? &*wall_nodes_ : nullptr; }
   /// Parts of the fluid that sheets seal off from every outlet, and what leaks out of them.
   [[nodiscard]] const ComponentBalance& balance() const { return balance_; }
   [[nodiscard]] const grid::Grid& grid() const { return grid_; }
@@ -116,7 +129,9 @@ class FlowSolver {
   void add_varying_force(const operators::StageWeights& weights, double t);
   void replace_rates_of_cut_cells(int stage, const operators::StageWeights& weights);
   void freeze_pressure_push(int stage);
+  void give_to_wall_nodes(int stage);
   void bind_to_walls(int stage, bool current_velocity);
+  [[nodiscard]] Vec3 momentum_beside_wall(std::size_t n, int stage, bool current_velocity) const;
   void interpolate_increment();
   void prescribe_fluxes(const immersed::StageTime& time);
   void compute_fluxes(const immersed::StageTime& time);
@@ -138,6 +153,7 @@ class FlowSolver {
   double diffusive_rate_;
   immersed::CutLinks links_;
   std::optional<immersed::CrossTerms> cross_terms_;  ///< on curvilinear grids
+  std::optional<immersed::WallNodes> wall_nodes_;    ///< of the scheme "curvib"
   ComponentBalance balance_;
   TimeStep step_;
   mutable Profile profile_;
@@ -155,6 +171,7 @@ class FlowSolver {
   std::vector<immersed::CutCellTerms> terms_;  ///< of links_.cells()
   std::vector<Vec3> explicit_increment_;       ///< du of cut cells before the implicit wall terms of the stage
   std::vector<Vec3> pressure_push_;            ///< c dt G p of cut cells in the stage
+  Field3<double> given_;                       ///< velocity of donors and wall nodes
   std::vector<Vec3> u_star_;                   ///< velocity of cut cells that the wall terms of the stage have seen
 };
 

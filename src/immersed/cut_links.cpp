@@ -11,11 +11,10 @@ namespace luff::immersed {
 
 namespace {
 
-/// Value of a vertex field at a hit.
-Vec3 interpolate(std::span<const Vec3> field, const std::array<int, 3>& triangle, const Crossing& hit)
+/// Value of a vertex field at a point of a triangle.
+Vec3 interpolate(std::span<const Vec3> field, const std::array<int, 3>& triangle, const std::array<double, 3>& weights)
 {
-  return hit.weights[0] * field[triangle[0]] + hit.weights[1] * field[triangle[1]] +
-         hit.weights[2] * field[triangle[2]];
+  return weights[0] * field[triangle[0]] + weights[1] * field[triangle[1]] + weights[2] * field[triangle[2]];
 }
 
 }  // namespace
@@ -32,6 +31,9 @@ void CutLinks::freeze(const SheetMotion& predicted, double dt, double speed, con
 {
   dt_ = dt;
   positions_ = predicted.position;
+  vertex_velocity_ = predicted.velocity;
+  vertex_acceleration_ = predicted.acceleration;
+  current_vertex_velocity_ = predicted.velocity;
   triangles_ = predicted.triangles;
   bodies_ = predicted.bodies;
   find_crossings(predicted.position);
@@ -60,17 +62,25 @@ void CutLinks::interpolate_prediction(const SheetMotion& predicted)
     const auto& [a, b, c] = triangle(crossings_[q]);
     normals_[q] =
         surface::area_vector(predicted.position[a], predicted.position[b], predicted.position[c]).normalized();
-    places_[q] = interpolate(predicted.position, triangle(crossings_[q]), crossings_[q]);
-    predicted_velocity_[q] = interpolate(predicted.velocity, triangle(crossings_[q]), crossings_[q]);
-    predicted_acceleration_[q] = interpolate(predicted.acceleration, triangle(crossings_[q]), crossings_[q]);
-    for (std::size_t body = 0; body < bodies_.size(); ++body)
-      if (bodies_[body].holds(crossings_[q].triangle)) {
-        body_of_hit_[q] = static_cast<int>(body);
-        predicted_velocity_[q] = predicted_body_velocity_[body].at(places_[q]);
-        predicted_acceleration_[q] = predicted_body_acceleration_[body].at(places_[q]);
-      }
+    places_[q] = interpolate(predicted.position, triangle(crossings_[q]), crossings_[q].weights);
+    predicted_velocity_[q] = interpolate(predicted.velocity, triangle(crossings_[q]), crossings_[q].weights);
+    predicted_acceleration_[q] = interpolate(predicted.acceleration, triangle(crossings_[q]), crossings_[q].weights);
+    if (const int body = body_of(crossings_[q].triangle); body >= 0) {
+      body_of_hit_[q] = body;
+      predicted_velocity_[q] = predicted_body_velocity_[body].at(places_[q]);
+      predicted_acceleration_[q] = predicted_body_acceleration_[body].at(places_[q]);
+    }
   }
   velocity_ = predicted_velocity_;
+}
+
+/// The closed body that a triangle bounds, or -1.
+int CutLinks::body_of(int triangle) const
+{
+  for (std::size_t body = 0; body < bodies_.size(); ++body)
+    if (bodies_[body].holds(triangle))
+      return static_cast<int>(body);
+  return -1;
 }
 
 void CutLinks::find_crossings(std::span<const Vec3> positions)
@@ -90,9 +100,10 @@ void CutLinks::find_crossings(std::span<const Vec3> positions)
 
 void CutLinks::set_velocity(std::span<const Vec3> velocity)
 {
+  current_vertex_velocity_.assign(velocity.begin(), velocity.end());
   body_velocity_ = rigid_velocities(velocity);
   for (std::size_t q = 0; q < crossings_.size(); ++q)
-    velocity_[q] = body_of_hit_[q] < 0 ? interpolate(velocity, triangle(crossings_[q]), crossings_[q])
+    velocity_[q] = body_of_hit_[q] < 0 ? interpolate(velocity, triangle(crossings_[q]), crossings_[q].weights)
                                        : body_velocity_[body_of_hit_[q]].at(places_[q]);
 }
 
@@ -103,6 +114,17 @@ std::vector<RigidVelocity> CutLinks::rigid_velocities(std::span<const Vec3> velo
     rigid.push_back(nearest_rigid_velocity(std::span(positions_).subspan(body.first_vertex, body.vertices),
                                            velocity.subspan(body.first_vertex, body.vertices)));
   return rigid;
+}
+
+Vec3 CutLinks::velocity_at(const SurfacePoint& point, const StageTime& time) const
+{
+  if (const int body = body_of(point.triangle); body >= 0)
+    return body_velocity(body, point.place, time);
+  const auto& corners = triangles_[point.triangle];
+  if (time.sheet == SheetVelocity::Current)
+    return interpolate(current_vertex_velocity_, corners, point.weights);
+  return interpolate(vertex_velocity_, corners, point.weights) -
+         (1.0 - time.fraction) * dt_ * interpolate(vertex_acceleration_, corners, point.weights);
 }
 
 Vec3 CutLinks::body_velocity(int body, const Vec3& x, const StageTime& time) const

@@ -45,6 +45,13 @@ struct StageTime {
   SheetVelocity sheet = SheetVelocity::Predicted;
 };
 
+/// A point of the sheet.
+struct SurfacePoint {
+  int triangle = 0;
+  std::array<double, 3> weights{};  ///< barycentric coordinates
+  Vec3 place = Vec3::Zero();
+};
+
 /// The low face of `cell` normal to `axis`, cut by the sheet between the centres of P = cell - e_axis and N = cell.
 /// P sees the first of the hits on the link, N the last: two sheets closer than a cell leave a gap between them.
 struct CutFace {
@@ -97,6 +104,8 @@ class CutLinks {
   [[nodiscard]] FluxOffsets accepted_offsets() const;
   /// Go on from the accepted offsets of all ranks, in any order.
   void restore(const FluxOffsets& of_all_ranks);
+  /// The number of a face in the whole grid, by the cell whose low face it is.
+  [[nodiscard]] std::int64_t key(int axis, const Index3& cell) const;
 
   [[nodiscard]] const std::vector<Crossing>& crossings() const { return crossings_; }
   [[nodiscard]] const std::vector<CutFace>& faces() const { return faces_; }
@@ -114,6 +123,10 @@ class CutLinks {
     return body_of_hit_[hit] >= 0 && (link_side == 1) == (crossings_[hit].side < 0);
   }
   [[nodiscard]] const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
+  /// Of the vertices, as frozen.
+  [[nodiscard]] const std::vector<Vec3>& positions() const { return positions_; }
+  /// Length of the step that the geometry is frozen for [T].
+  [[nodiscard]] double step_length() const { return dt_; }
   [[nodiscard]] const std::array<int, 3>& triangle(const Crossing& hit) const { return triangles_[hit.triangle]; }
   /// Unit normal of the sheet at hit q.
   [[nodiscard]] const Vec3& normal(int q) const { return normals_[q]; }
@@ -130,6 +143,8 @@ class CutLinks {
       return velocity_[hit];
     return predicted_velocity_[hit] - (1.0 - time.fraction) * dt_ * predicted_acceleration_[hit];
   }
+  /// Velocity of the sheet at any of its points; on a body, that of its rigid motion.
+  [[nodiscard]] Vec3 velocity_at(const SurfacePoint& point, const StageTime& time) const;
   /// Velocity of the body that an inside cell lies in, at a place.
   [[nodiscard]] Vec3 body_velocity(int body, const Vec3& x, const StageTime& time) const;
   /// U_f = A (u_b . e + eps exp(-c dt/tau)), into the fluxes of every cut face; U_f = A u_b . e between cells inside.
@@ -146,7 +161,7 @@ class CutLinks {
   [[nodiscard]] double face_velocity(const CutFace& face, const StageTime& time) const;
   void impose_fluxes_inside(const StageTime& time, const View3<double>& U) const;
   [[nodiscard]] std::vector<RigidVelocity> rigid_velocities(std::span<const Vec3> velocity) const;
-  [[nodiscard]] std::int64_t key(int axis, const Index3& cell) const;
+  [[nodiscard]] int body_of(int triangle) const;
   /// The cell whose low face a key stands for, and the axis.
   [[nodiscard]] std::pair<int, Index3> face_of(std::int64_t key) const;
   [[nodiscard]] bool keeps(std::int64_t key) const;
@@ -156,7 +171,10 @@ class CutLinks {
   const grid::Grid& grid_;
   double dt_ = 0.0;
   std::unique_ptr<const LinkTree> tree_;  ///< of curvilinear grids, once there is a sheet
-  std::vector<Vec3> positions_;           ///< of the vertices
+  std::vector<Vec3> positions_;           ///< of the vertices, as are the following
+  std::vector<Vec3> vertex_velocity_;     ///< of the predictor
+  std::vector<Vec3> vertex_acceleration_;
+  std::vector<Vec3> current_vertex_velocity_;
   std::vector<std::array<int, 3>> triangles_;
   std::vector<ClosedSurface> bodies_;
   std::vector<RigidVelocity> predicted_body_velocity_;

@@ -4,6 +4,7 @@
 #include "immersed/cell_metric.hpp"
 #include "immersed/cut_axis.hpp"
 #include "parallel/vector_field.hpp"
+#include "surface/mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -153,26 +154,69 @@ double area_share(const grid::Grid& grid, const Crossing& hit, const Vec3& norma
   return share / sum;
 }
 
-/// Shares what lies around each vertex with the triangles that no hit sampled.
+/// Shares what lies around each vertex with the triangles that no hit sampled; again, until no more are reached.
 void fill_from_neighbours(std::span<const std::array<int, 3>> triangles, std::size_t vertices,
                           std::vector<TriangleSums>& sums)
 {
-  std::vector<TriangleSums> around(vertices);
   const auto add = [](SideSums& to, const SideSums& from) {
     to.area += from.area;
     to.pressure += from.pressure;
     for (int c = 0; c < 3; ++c)
       to.shear[c] += from.shear[c];
   };
-  for (std::size_t e = 0; e < triangles.size(); ++e)
-    for (const int v : triangles[e])
-      for (int side = 0; side < 2; ++side)
-        add(around[v][side], sums[e][side]);
-  for (std::size_t e = 0; e < triangles.size(); ++e)
-    for (int side = 0; side < 2; ++side)
-      if (sums[e][side].area == 0.0)
+  for (bool reached = true; reached;) {
+    reached = false;
+    std::vector<TriangleSums> around(vertices);
+    for (std::size_t e = 0; e < triangles.size(); ++e)
+      for (const int v : triangles[e])
+        for (int side = 0; side < 2; ++side)
+          add(around[v][side], sums[e][side]);
+    for (std::size_t e = 0; e < triangles.size(); ++e)
+      for (int side = 0; side < 2; ++side) {
+        if (sums[e][side].area != 0.0)
+          continue;
         for (const int v : triangles[e])
           add(sums[e][side], around[v][side]);
+        reached = reached || sums[e][side].area != 0.0;
+      }
+  }
+}
+
+/// The tractions of all triangles from the sums over what this rank has of them.
+std::vector<SideTraction> mean_tractions(const grid::Grid& grid, std::span<const std::array<int, 3>> triangles,
+                                         std::size_t vertices, std::vector<TriangleSums>& sums)
+{
+  sum_over_ranks(grid, &sums[0][0].area, sums.size() * sizeof(TriangleSums) / sizeof(double));
+  fill_from_neighbours(triangles, vertices, sums);
+  std::vector<SideTraction> tractions(triangles.size());
+  for (std::size_t e = 0; e < triangles.size(); ++e)
+    for (int side = 0; side < 2; ++side)
+      if (const SideSums& sum = sums[e][side]; sum.area > 0.0) {
+        tractions[e].pressure[side] = sum.pressure / sum.area;
+        tractions[e].shear[side] = Vec3(sum.shear[0], sum.shear[1], sum.shear[2]) / sum.area;
+      }
+  return tractions;
+}
+
+/// Pressure and shear at the foot of a wall node; see node_tractions().
+HitTraction at_foot(const CutLinks& links, const WallNode& node, const Index3& cell, const LoadFields& fields)
+{
+  const double p = fields.p(cell);
+  const Vec3 u_a = links.velocity_at(node.foot, {1.0, SheetVelocity::Current});
+  if (node.donors == 0) {
+    const Vec3 before = links.velocity_at(node.foot, {0.0, SheetVelocity::Predicted});
+    const double acceleration = (u_a - before).dot(node.normal) / links.step_length();
+    return {.pressure = fields.density * (p + node.distance * acceleration)};
+  }
+  double p_c = 0.0;
+  Vec3 slip = -u_a;
+  for (int k = 0; k < node.donors; ++k) {
+    p_c += node.weight[k] * fields.p(node.donor[k]);
+    slip += node.weight[k] * at(fields.u, node.donor[k]);
+  }
+  slip -= slip.dot(node.normal) * node.normal;
+  return {.pressure = fields.density * (p - node.distance / (node.reach - node.distance) * (p_c - p)),
+          .viscous = fields.density * fields.viscosity / node.reach * slip};
 }
 
 }  // namespace
@@ -209,16 +253,45 @@ std::vector<SideTraction> side_tractions(const grid::Grid& grid, const CutLinks&
     for (int c = 0; c < 3; ++c)
       sum.shear[c] += area * t.viscous[c];
   });
-  sum_over_ranks(grid, &sums[0][0].area, sums.size() * sizeof(TriangleSums) / sizeof(double));
-  fill_from_neighbours(triangles, vertices, sums);
-  std::vector<SideTraction> tractions(triangles.size());
-  for (std::size_t e = 0; e < triangles.size(); ++e)
-    for (int side = 0; side < 2; ++side)
-      if (const SideSums& sum = sums[e][side]; sum.area > 0.0) {
-        tractions[e].pressure[side] = sum.pressure / sum.area;
-        tractions[e].shear[side] = Vec3(sum.shear[0], sum.shear[1], sum.shear[2]) / sum.area;
-      }
-  return tractions;
+  return mean_tractions(grid, triangles, vertices, sums);
+}
+
+std::vector<SideTraction> node_tractions(const grid::Grid& grid, const CutLinks& links, const WallNodes& nodes,
+                                         const LoadFields& fields)
+{
+  const auto& triangles = links.triangles();
+  const auto& x = links.positions();
+  std::vector<TriangleSums> sums(triangles.size());
+  for (std::size_t n = 0; n < nodes.nodes().size(); ++n) {
+    const WallNode& node = nodes.nodes()[n];
+    const auto& [a, b, c] = triangles[node.foot.triangle];
+    const Vec3 to_node = node.foot.place + node.distance * node.normal - (x[a] + x[b] + x[c]) / 3.0;
+    const HitTraction t = at_foot(links, node, links.cells()[n].cell, fields);
+    const double weight = 1.0 / to_node.norm();
+    SideSums& sum = sums[node.foot.triangle][node.plus ? 1 : 0];
+    sum.area += weight;
+    sum.pressure += weight * t.pressure;
+    for (int d = 0; d < 3; ++d)
+      sum.shear[d] += weight * t.viscous[d];
+  }
+  return mean_tractions(grid, triangles, x.size(), sums);
+}
+
+SheetLoads loads_of_tractions(const CutLinks& links, std::span<const SideTraction> tractions)
+{
+  const auto& x = links.positions();
+  SheetLoads loads{std::vector<Vec3>(x.size(), Vec3::Zero()), std::vector<Vec3>(x.size(), Vec3::Zero())};
+  for (std::size_t e = 0; e < tractions.size(); ++e) {
+    const auto& [a, b, c] = links.triangles()[e];
+    const Vec3 area = surface::area_vector(x[a], x[b], x[c]);
+    for (int side = 0; side < 2; ++side) {
+      const Vec3 force =
+          (side == 1 ? -1.0 : 1.0) * tractions[e].pressure[side] * area + area.norm() * tractions[e].shear[side];
+      for (const int v : {a, b, c})
+        (side == 1 ? loads.plus : loads.minus)[v] += force / 3.0;
+    }
+  }
+  return loads;
 }
 
 }  // namespace luff::immersed

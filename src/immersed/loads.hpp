@@ -7,6 +7,7 @@
 
 #include "immersed/cross_terms.hpp"
 #include "immersed/cut_links.hpp"
+#include "immersed/wall_nodes.hpp"
 
 namespace luff::immersed {
 
@@ -53,5 +54,19 @@ struct LoadFields {
 /// share a vertex.  Collective.
 [[nodiscard]] std::vector<SideTraction> side_tractions(const grid::Grid& grid, const CutLinks& links,
                                                        const LoadFields& fields, std::size_t vertices);
+
+/// The same of the scheme "curvib", after (4.30) to (4.32) of \cite gilmanov_2015_numerical: each wall node belongs to
+/// the triangle its foot lies on, and gives it, on its side, pressure and shear along the normal,
+///
+///   p_a = p_P - s_P (p_c - p_P)/(s_c - s_P),   tau = mu (u_c - u_a)_t/s_c;
+///
+/// a triangle's values are the means over its nodes, weighted by 1/|x_P - x_e|, x_e its centre.  Triangles without any
+/// take those around.  Between sheets, where no c is known, dp/dn = -rho a . n with the acceleration of the sheet over
+/// the step.  Collective.
+[[nodiscard]] std::vector<SideTraction> node_tractions(const grid::Grid& grid, const CutLinks& links,
+                                                       const WallNodes& nodes, const LoadFields& fields);
+
+/// Tractions times areas, a third for each vertex.
+[[nodiscard]] SheetLoads loads_of_tractions(const CutLinks& links, std::span<const SideTraction> tractions);
 
 }  // namespace luff::immersed

@@ -70,6 +70,8 @@ fluid::FlowOptions flow_options(const config::Case& options)
 {
   const config::FluidOptions& fluid = *options.fluid;
   fluid::FlowOptions flow;
+  if (options.immersed.scheme == config::ImmersedScheme::Curvib)
+    flow.immersed = fluid::ImmersedScheme::Curvib;
   flow.density = fluid.density;
   flow.viscosity = fluid.viscosity / fluid.density;
   flow.acceleration = function_of(fluid.body_force, 1.0 / fluid.density);

@@ -37,6 +37,13 @@ void transfer_offsets(File& file, Offsets& offsets)
   file.pieces("flow/inside_body", offsets.inside_body);
 }
 
+template <class File, class Offsets>
+void transfer_node_offsets(File& file, Offsets& offsets)
+{
+  file.pieces("flow/wall_node", offsets.node);
+  file.pieces("flow/wall_node_offset", offsets.offset);
+}
+
 template <class File, class Checkpoint>
 void transfer_shells(File& file, Checkpoint& shells)
 {
@@ -154,6 +161,7 @@ struct Saved {
   std::vector<Shape> shapes;
   const fluid::FlowState* flow = nullptr;
   immersed::FluxOffsets offsets = {};
+  immersed::NodeOffsets node_offsets = {};
   shell::Checkpoint shells = {};
   std::vector<double> free_bodies = {};
   coupling::History history;
@@ -174,6 +182,8 @@ Saved collect(const config::Case& options, Simulation& simulation, const Record&
   if (const auto* flow = simulation.surroundings().flow()) {
     saved.flow = &flow->state();
     saved.offsets = flow->links().accepted_offsets();
+    if (const immersed::WallNodes* nodes = flow->wall_nodes())
+      saved.node_offsets = nodes->accepted_offsets();
   }
   if (structure.shells().dynamics)
     saved.shells = structure.shells().dynamics->checkpoint();
@@ -191,6 +201,7 @@ void put(File& file, const Saved& saved)
   if (saved.flow != nullptr) {
     transfer_flow(file, *saved.flow);
     transfer_offsets(file, saved.offsets);
+    transfer_node_offsets(file, saved.node_offsets);
   }
   transfer_shells(file, saved.shells);
   file.value("bodies/free", saved.free_bodies);
@@ -222,7 +233,9 @@ void restore_flow(const output::CheckpointReader& file, fluid::FlowSolver& flow,
   transfer_flow(file, state);
   immersed::FluxOffsets offsets;
   transfer_offsets(file, offsets);
-  flow.restore(std::move(state), offsets, t);
+  immersed::NodeOffsets node_offsets;
+  transfer_node_offsets(file, node_offsets);
+  flow.restore(std::move(state), offsets, node_offsets, t);
 }
 
 }  // namespace

@@ -6,9 +6,14 @@
 
 #include <Eigen/Core>
 
-#include "shell/contact/closest_points.hpp"
+#include "surface/closest_points.hpp"
 
 namespace luff::shell {
+
+using surface::Closest;
+using surface::Corners;
+using surface::edge_edge;
+using surface::point_triangle;
 
 /// Value and derivatives of a barrier at one distance.
 struct BarrierValue {

@@ -9,10 +9,12 @@
 #include <Eigen/Core>
 
 #include "shell/contact/boxes.hpp"
-#include "shell/contact/closest_points.hpp"
+#include "surface/closest_points.hpp"
 #include "surface/mesh.hpp"
 
 namespace luff::shell {
+
+using surface::Corners;
 
 /// One sheet: a deformable shell or part of one, or a rigid body that moves as prescribed.
 struct ContactSheet {

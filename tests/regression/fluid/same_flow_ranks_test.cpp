@@ -24,9 +24,10 @@ void expect_same(const Signature& together, const Signature& alone)
   EXPECT_LE(difference, 1e-11);
 }
 
-void expect_same_on_all_ranks(bool with_sheet)
+void expect_same_on_all_ranks(bool with_sheet, fluid::ImmersedScheme scheme = fluid::ImmersedScheme::CutLink)
 {
-  expect_same(run_stretched_flow(MPI_COMM_WORLD, 50, with_sheet), run_stretched_flow(MPI_COMM_SELF, 50, with_sheet));
+  expect_same(run_stretched_flow(MPI_COMM_WORLD, 50, with_sheet, {}, scheme),
+              run_stretched_flow(MPI_COMM_SELF, 50, with_sheet, {}, scheme));
 }
 
 /// Every velocity and pressure of Ethier and Steinman's flow in skewed cells between curved sides, summed with weights.
@@ -62,6 +63,11 @@ TEST(FlowOnRanks, IsThatOfOneRankAfterFiftySteps)
 TEST(FlowOnRanks, IsThatOfOneRankAfterFiftyStepsAroundAMovingSheet)
 {
   expect_same_on_all_ranks(/*with_sheet=*/true);
+}
+
+TEST(FlowOnRanks, IsThatOfOneRankAfterFiftyStepsAroundAMovingSheetWithTheSchemeCurvib)
+{
+  expect_same_on_all_ranks(/*with_sheet=*/true, fluid::ImmersedScheme::Curvib);
 }
 
 TEST(FlowOnRanks, IsThatOfOneRankAfterFiftyStepsOnACurvilinearGrid)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Distance between the smallest pieces of two surfaces.
-#include "shell/contact/closest_points.hpp"
+#include "surface/closest_points.hpp"
 
 #include <algorithm>
 
 #include <Eigen/Geometry>
 
-namespace luff::shell {
+namespace luff::surface {
 
 namespace {
 
@@ -76,4 +76,4 @@ Closest edge_edge(const Corners& x)
   return best;
 }
 
-}  // namespace luff::shell
+}  // namespace luff::surface

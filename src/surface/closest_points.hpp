@@ -6,7 +6,7 @@
 
 #include "core/vec3.hpp"
 
-namespace luff::shell {
+namespace luff::surface {
 
 /// Four vertices: a point and a triangle's corners, or the ends of one edge and those of another.
 using Corners = std::array<Vec3, 4>;
@@ -25,4 +25,4 @@ Closest point_triangle(const Corners& x);
 /// The edge from corner 0 to 1 and the edge from corner 2 to 3; parallel edges and edges without length are welcome.
 Closest edge_edge(const Corners& x);
 
-}  // namespace luff::shell
+}  // namespace luff::surface
