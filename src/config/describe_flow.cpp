@@ -18,7 +18,9 @@ void describe(Schema& s, TimeOptions& time)
         {.doc = "Choose the step so that the largest sum of |U_d| dt / h_d over the directions stays at this number. "
                 "Absent: the step is constant.",
          .range = positive});
-  s.key("scheme", time.scheme, {.doc = "Time scheme of the flow: three-stage Runge-Kutta with implicit cut links."});
+  s.key("scheme", time.scheme,
+        {.doc = "Time scheme of the flow: `rk3`, explicit, with implicit cut links; `newton-krylov`, convection and "
+                "diffusion implicit, for cells so thin that an explicit step would be very short."});
 }
 
 void describe(Schema& s, FluidOptions& fluid)

@@ -17,7 +17,7 @@ namespace luff::config {
 
 // ---- time, fluid, grid and its boundary ------------------------------------------------------------------------
 
-enum class TimeScheme { Rk3 };
+enum class TimeScheme { Rk3, NewtonKrylov };
 
 /// [time]; not used by a static analysis.
 struct TimeOptions {

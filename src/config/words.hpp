@@ -19,7 +19,7 @@ struct Words {
 
 inline Words<TimeScheme> words(TimeScheme)
 {
-  return {{{TimeScheme::Rk3, "rk3"}}, {"sbdf2", "newton-krylov"}};
+  return {{{TimeScheme::Rk3, "rk3"}, {TimeScheme::NewtonKrylov, "newton-krylov"}}, {"sbdf2"}};
 }
 
 inline Words<GridKind> words(GridKind)

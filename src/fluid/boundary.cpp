@@ -160,6 +160,15 @@ void BoundaryConditions::evaluate_pressure_at(double t)
         side.pressure[n] = boundary(side).pressure.value(side.faces[n].place, t);
 }
 
+std::array<std::array<bool, 2>, 3> BoundaryConditions::holds_velocity() const
+{
+  std::array<std::array<bool, 2>, 3> holds{};
+  for (int a = 0; a < 3; ++a)
+    for (int end = 0; end < 2; ++end)
+      holds[a][end] = boundaries_[a][end].kind == SideKind::Velocity || boundaries_[a][end].kind == SideKind::Wall;
+  return holds;
+}
+
 double BoundaryConditions::largest_pressure() const
 {
   double largest = 0.0;

@@ -133,6 +133,8 @@ class BoundaryConditions {
   [[nodiscard]] std::vector<SideStress> stresses(const View3<const double>& u, const View3<const double>& U,
                                                  const View<const double>& p, double viscosity, bool walls_only) const;
 
+  /// Which sides prescribe the velocity: velocity sides and walls.
+  [[nodiscard]] std::array<std::array<bool, 2>, 3> holds_velocity() const;
   /// Largest prescribed speed at the time of the last evaluation [L/T].
   [[nodiscard]] double largest_speed() const { return largest_speed_; }
   /// Largest prescribed kinematic pressure, in size, at the time of the last evaluation [L^2/T^2].  Collective.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "operators/vector_algebra.hpp"
 #include "parallel/vector_field.hpp"
 
 namespace luff::fluid {
@@ -15,12 +16,10 @@ using immersed::StageTime;
 
 namespace {
 
-/// Wray's coefficients [spalart_1991_spectral].  delta_s = gamma_s + zeta_s; c_s = time at the end of stage s.
-constexpr std::array<double, 3> stage_gamma{8.0 / 15.0, 5.0 / 12.0, 3.0 / 4.0};
-constexpr std::array<double, 3> stage_zeta{0.0, -17.0 / 60.0, -5.0 / 12.0};
-constexpr std::array<double, 3> stage_delta{8.0 / 15.0, 2.0 / 15.0, 1.0 / 3.0};
-constexpr std::array<double, 3> stage_end{8.0 / 15.0, 2.0 / 3.0, 1.0};
-constexpr std::array<double, 3> stage_start{0.0, 8.0 / 15.0, 2.0 / 3.0};
+/// Root mean square residual of the implicit increments in parts of the speed, above their rounding by rates of a
+/// diffusion number of one.
+constexpr double momentum_tolerance = 1e-11;
+constexpr double momentum_rounding = 1e-14;
 
 /// What a prescribed pressure does to the cell beside it in a step leaves a round-off that no projection takes away:
 /// this part of it counts as a speed.
@@ -57,6 +56,14 @@ FlowSolver::FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries b
   if (options_.immersed == ImmersedScheme::Curvib) {
     wall_nodes_.emplace(grid);
     given_ = make_field3<double>(grid.owned());
+  }
+  if (options_.scheme == TimeScheme::NewtonKrylov) {
+    for (Field3<double>* field : {&known_, &unpushed_, &recovered_})
+      *field = make_field3<double>(grid.owned());
+    lines_.emplace(grid, boundary_.holds_velocity());
+    momentum_ = std::make_unique<NewtonKrylov>(
+        grid, [this](const View3<double>& du) { implicit_increment(du); },
+        [this](const View3<double>& r) { lines_->solve(r); });
   }
 }
 
@@ -113,28 +120,131 @@ void FlowSolver::begin_step(const TimeStep& step, const immersed::SheetMotion& p
     wall_nodes_->start_offsets(links_, views(std::as_const(u_)));
   }
 
-  advance_stage(0);
-  freeze_pressure_push(0);
-  bind_to_walls(0, /*current_velocity=*/false);
-  predict_with_old_pressure({stage_end[0]});
-  recover({stage_end[0]});
+  const std::span<const Stage> stages = stages_of(options_.scheme);
+  if (options_.scheme == TimeScheme::NewtonKrylov)
+    begin_implicit(stages);
+  else
+    begin_explicit(stages);
+}
 
-  advance_stage(1);
-  freeze_pressure_push(1);
-  bind_to_walls(1, /*current_velocity=*/false);
-  compute_fluxes({stage_end[1]});
-  project_stage(stage_end[1] * step.dt, options_.stage_reduction);
-  recover({stage_end[1]});
+/// Wray's stages 1 and 2, and the rates of stage 3.
+void FlowSolver::begin_explicit(std::span<const Stage> stages)
+{
+  freeze_pressure_push(stages[0]);
+  advance_stage(stages[0]);
+  bind_to_walls(stages[0], SheetVelocity::Predicted);
+  predict_with_old_pressure({stages[0].end});
+  recover({stages[0].end});
 
-  advance_stage(2);
-  freeze_pressure_push(2);
+  freeze_pressure_push(stages[1]);
+  advance_stage(stages[1]);
+  bind_to_walls(stages[1], SheetVelocity::Predicted);
+  compute_fluxes({stages[1].end});
+  project_stage(stages[1].end * step_.dt, options_.stage_reduction);
+  recover({stages[1].end});
+
+  freeze_pressure_push(stages[2]);
+  advance_stage(stages[2]);
+}
+
+/// Alexander's stage 1, and the increment of stage 2 with the predicted velocity of the sheets.
+void FlowSolver::begin_implicit(std::span<const Stage> stages)
+{
+  newton_ = {};
+  lines_->update(stages[0].new_rate * step_.dt, views(std::as_const(state_.U)), options_.viscosity);
+  for (int d = 0; d < 3; ++d) {
+    known_[d].fill(0.0);
+    recovered_[d].fill(0.0);
+  }
+  solve_stage(stages[0]);
+  find_recovered_part();
+  solve_stage(stages[0]);
+  find_recovered_part();
+  compute_fluxes({stages[0].end});
+  project_stage(stages[0].end * step_.dt, options_.stage_reduction);
+  // gamma dt N_1 is the increment of stage 1 itself: its rate is never evaluated again, which is what damps stiff
+  // modes.
+  const double gamma = stages[0].new_rate;
+  operators::set_multiple(grid_.owned(), (1.0 - gamma) / gamma, views(std::as_const(increment_)), views(known_));
+  operators::set_multiple(grid_.owned(), 1.0 / gamma, views(std::as_const(increment_)), views(increment_));
+  operators::set_multiple(grid_.owned(), 1.0 / gamma, views(std::as_const(recovered_)), views(recovered_));
+  solve_stage(stages[1]);
+}
+
+/// Solves du = du_known + gamma dt N(u(du)), from the increment that is there.
+void FlowSolver::solve_stage(const Stage& stage)
+{
+  implicit_stage_ = stage;
+  freeze_pressure_push(stage);
+  freeze_pressure_part(stage);
+  const double tolerance = std::max(momentum_tolerance, momentum_rounding * step_.dt * diffusive_rate_);
+  const NewtonReport report = momentum_->solve(views(increment_), tolerance * speed_);
+  newton_.iterations += report.iterations;
+  newton_.krylov_iterations += report.krylov_iterations;
+  newton_.residual = std::max(newton_.residual, report.residual);
+  if (!report.converged)
+    fail_to_converge(
+        "step {}, t = {:.6g}: the implicit momentum equation did not converge: residual {:.2e} at a speed of {:.3g} "
+        "after {} Newton and {} Krylov iterations; a smaller time.step, or time.cfl, may help",
+        step_.index, step_.t_new, report.residual, speed_, report.iterations, report.krylov_iterations);
+  implicit_increment(views(increment_));  // the terms of cut cells, and du, at the solution
+}
+
+/// u^n - c dt G p at all centres, of the latest pressure, the gradient recovered from that at faces.
+void FlowSolver::freeze_pressure_part(const Stage& stage)
+{
+  for (auto& U : U_)
+    U.fill(0.0);
+  pressure_->subtract_gradient(views(U_), p_.view(), stage.end * step_.dt);
+  operators::recover_velocity(grid_, views(std::as_const(U_)), views(unpushed_));
+  operators::add_multiple(grid_.owned(), 1.0, views(std::as_const(state_.u)), views(unpushed_));
+}
+
+/// u(du) = u^n + du - c dt G p + e at centres.
+void FlowSolver::set_implicit_velocity()
+{
+  const auto du = views(std::as_const(increment_));
+  operators::set_multiple(grid_.owned(), 1.0, du, views(u_));
+  operators::add_multiple(grid_.owned(), 1.0, views(std::as_const(unpushed_)), views(u_));
+  operators::add_multiple(grid_.owned(), 1.0, views(std::as_const(recovered_)), views(u_));
+  for (std::size_t n = 0; n < links_.cells().size(); ++n) {
+    const Index3& c = links_.cells()[n].cell;
+    for (int d = 0; d < 3; ++d)
+      u_[d].view()(c) = state_.u[d].view()(c) + du[d](c) - pressure_push_[n][d];
+  }
+  set_body_velocity({implicit_stage_.end});
+}
+
+/// e = rec(U*) - (u^n + du - c dt G p): what recovering the velocity from the fluxes changes.  It is a smoothing of du
+/// along the axis of each component; taken from an earlier solution, it leaves the scheme second order in time without
+/// standing in the way of the solution for du.
+void FlowSolver::find_recovered_part()
+{
+  const StageTime end{implicit_stage_.end};
+  predict_with_old_pressure(end);
+  recover(end);
+  operators::set_multiple(grid_.owned(), 1.0, views(std::as_const(u_)), views(recovered_));
+  operators::add_multiple(grid_.owned(), -1.0, views(std::as_const(unpushed_)), views(recovered_));
+  operators::add_multiple(grid_.owned(), -1.0, views(std::as_const(increment_)), views(recovered_));
+}
+
+/// T(du) = du_known + gamma dt N(u(du), U^n + A <du> - c dt G p).
+void FlowSolver::implicit_increment(const View3<double>& du)
+{
+  operators::set_multiple(grid_.owned(), 1.0, {du[0], du[1], du[2]}, views(increment_));
+  predict_with_old_pressure({implicit_stage_.end});
+  set_implicit_velocity();
+  increment_ = known_;
+  advance_stage(implicit_stage_);
+  bind_to_walls(implicit_stage_, SheetVelocity::Predicted);
+  operators::set_multiple(grid_.owned(), 1.0, views(std::as_const(increment_)), du);
 }
 
 poisson::Report FlowSolver::project(std::span<const Vec3> sheet_velocity)
 {
   links_.set_velocity(sheet_velocity);
   const StageTime now{1.0, SheetVelocity::Current};
-  bind_to_walls(2, /*current_velocity=*/true);
+  bind_to_walls(stages_of(options_.scheme).back(), SheetVelocity::Current);
   compute_fluxes(now);
   const poisson::Report report = project_stage(step_.dt, 0.0);
   recover(now);
@@ -187,15 +297,15 @@ void FlowSolver::find_cut_links(const immersed::SheetMotion& predicted, double s
 }
 
 /// du <- du + dt (gamma N(u) + zeta N_old), in every cell; the wall terms of cut cells follow in bind_to_walls().
-void FlowSolver::advance_stage(int stage)
+void FlowSolver::advance_stage(const Stage& stage)
 {
   fill_velocity_halo(views(u_));
-  const operators::StageWeights weights{step_.dt * stage_gamma[stage], step_.dt * stage_zeta[stage]};
+  const operators::StageWeights weights{step_.dt * stage.new_rate, step_.dt * stage.old_rate};
   // Cut cells are computed first, from the increments and rates that the sweep over all cells overwrites.
   if (!wall_nodes_)
     replace_rates_of_cut_cells(stage, weights);
   else if (cross_terms_)
-    cross_terms_->update(links_, views(std::as_const(u_)), {stage_start[stage]});
+    cross_terms_->update(links_, views(std::as_const(u_)), {stage.rate_time});
   const Vec3 force = constant_part(options_.acceleration);
   {
     const auto timer = profile_.time(Phase::Momentum);
@@ -209,15 +319,17 @@ void FlowSolver::advance_stage(int stage)
   if (cross_terms_)
     change_cross_terms_beside(weights);
   if (!options_.acceleration.constant)
-    add_varying_force(weights, step_.t_old + stage_start[stage] * step_.dt);
-  if (wall_nodes_)
+    add_varying_force(weights, step_.t_old + stage.rate_time * step_.dt);
+  if (wall_nodes_) {
+    give_to_wall_nodes(stage);
     return;
+  }
   for (std::size_t n = 0; n < links_.cells().size(); ++n)
     for (int d = 0; d < 3; ++d)
       rate_[d].view()(links_.cells()[n].cell) = terms_[n].explicit_rate[d];
 }
 
-void FlowSolver::replace_rates_of_cut_cells(int stage, const operators::StageWeights& weights)
+void FlowSolver::replace_rates_of_cut_cells(const Stage& stage, const operators::StageWeights& weights)
 {
   const auto timer = profile_.time(Phase::CutCells);
   const std::vector<immersed::CutCell>& cells = links_.cells();
@@ -226,10 +338,10 @@ void FlowSolver::replace_rates_of_cut_cells(int stage, const operators::StageWei
 #pragma omp parallel for schedule(static)
   for (std::size_t n = 0; n < cells.size(); ++n)
     terms_[n] = immersed::momentum_terms(grid_, links_, cells[n], views(std::as_const(u_)), options_.viscosity,
-                                         {stage_start[stage]}, {stage_end[stage]});
+                                         {stage.rate_time}, {stage.end});
   if (cross_terms_)
-    add_cross_terms({stage_start[stage]});
-  const double t = step_.t_old + stage_start[stage] * step_.dt;
+    add_cross_terms({stage.rate_time});
+  const double t = step_.t_old + stage.rate_time * step_.dt;
   for (std::size_t n = 0; n < cells.size(); ++n) {
     const Index3& c = cells[n].cell;
     terms_[n].explicit_rate += options_.acceleration.value(grid_.centre(c[0], c[1], c[2]), t);
@@ -278,24 +390,22 @@ void FlowSolver::add_varying_force(const operators::StageWeights& weights, doubl
 }
 
 /// c dt G p of the latest pressure in cut cells; frozen for the stage, so that coupling iterations see an affine map.
-void FlowSolver::freeze_pressure_push(int stage)
+void FlowSolver::freeze_pressure_push(const Stage& stage)
 {
   const auto timer = profile_.time(Phase::CutCells);
   const std::vector<immersed::CutCell>& cells = links_.cells();
   pressure_push_.resize(cells.size());
   for (std::size_t n = 0; n < cells.size(); ++n)
-    pressure_push_[n] = stage_end[stage] * step_.dt * immersed::pressure_gradient(grid_, cells[n], p_.view());
-  if (wall_nodes_)
-    give_to_wall_nodes(stage);
+    pressure_push_[n] = stage.end * step_.dt * immersed::pressure_gradient(grid_, cells[n], p_.view());
 }
 
 /// u^n + du - c dt G p of the latest pressure in the donors of wall nodes.
-void FlowSolver::give_to_wall_nodes(int stage)
+void FlowSolver::give_to_wall_nodes(const Stage& stage)
 {
   constexpr int open = immersed::open_link;
   for (const Index3& c : wall_nodes_->donors()) {
-    const Vec3 push = stage_end[stage] * step_.dt *
-                      immersed::pressure_gradient(grid_, {c, {open, open, open, open, open, open}}, p_.view());
+    const Vec3 push =
+        stage.end * step_.dt * immersed::pressure_gradient(grid_, {c, {open, open, open, open, open, open}}, p_.view());
     for (int d = 0; d < 3; ++d)
       given_[d].view()(c) = state_.u[d].view()(c) + increment_[d].view()(c) - push[d];
   }
@@ -303,12 +413,12 @@ void FlowSolver::give_to_wall_nodes(int stage)
 }
 
 /// u* = [u^n + du + delta dt sum v_k u_b - c dt G p]/(1 + delta dt sum v_k) of a cut cell.
-Vec3 FlowSolver::momentum_beside_wall(std::size_t n, int stage, bool current_velocity) const
+Vec3 FlowSolver::momentum_beside_wall(std::size_t n, const Stage& stage, SheetVelocity velocity) const
 {
-  const double implicit = stage_delta[stage] * step_.dt;
+  const double implicit = stage.wall * step_.dt;
   const immersed::CutCell& cut = links_.cells()[n];
-  const Vec3 source = current_velocity
-                          ? immersed::wall_source(grid_, links_, cut, options_.viscosity, {1.0, SheetVelocity::Current})
+  const Vec3 source = velocity == SheetVelocity::Current
+                          ? immersed::wall_source(grid_, links_, cut, options_.viscosity, {stage.end, velocity})
                           : terms_[n].wall_source;
   const Vec3 u_old = at(views(state_.u), cut.cell);
   return (u_old + explicit_increment_[n] + implicit * source - pressure_push_[n]) /
@@ -316,19 +426,17 @@ Vec3 FlowSolver::momentum_beside_wall(std::size_t n, int stage, bool current_vel
 }
 
 /// u* of cut cells, by their momentum or along the normal of the sheet, and du = u* + c dt G p - u^n.
-void FlowSolver::bind_to_walls(int stage, bool current_velocity)
+void FlowSolver::bind_to_walls(const Stage& stage, SheetVelocity velocity)
 {
   const auto timer = profile_.time(Phase::CutCells);
   const std::vector<immersed::CutCell>& cells = links_.cells();
   u_star_.resize(cells.size());
   if (wall_nodes_)
-    wall_nodes_->reconstruct(links_,
-                             {stage_end[stage], current_velocity ? SheetVelocity::Current : SheetVelocity::Predicted},
-                             views(given_));
+    wall_nodes_->reconstruct(links_, {stage.end, velocity}, views(given_));
 #pragma omp parallel for schedule(static)
   for (std::size_t n = 0; n < cells.size(); ++n) {
     const Index3& c = cells[n].cell;
-    u_star_[n] = wall_nodes_ ? at(views(std::as_const(given_)), c) : momentum_beside_wall(n, stage, current_velocity);
+    u_star_[n] = wall_nodes_ ? at(views(std::as_const(given_)), c) : momentum_beside_wall(n, stage, velocity);
     for (int d = 0; d < 3; ++d)
       increment_[d].view()(c) = u_star_[n][d] + pressure_push_[n][d] - state_.u[d].view()(c);
   }
@@ -428,6 +536,12 @@ void FlowSolver::recover(const StageTime& time)
   const auto timer = profile_.time(Phase::Momentum);
   operators::recover_velocity(grid_, views(std::as_const(U_)), views(u_));
   immersed::recover_velocity(grid_, links_, views(std::as_const(U_)), time, views(u_));
+  set_body_velocity(time);
+}
+
+/// Inside closed bodies the velocity is the body's.
+void FlowSolver::set_body_velocity(const StageTime& time)
+{
   for (const auto& [cell, body] : links_.inside()) {
     const Vec3 u = links_.body_velocity(body, grid_.centre(cell[0], cell[1], cell[2]), time);
     for (int d = 0; d < 3; ++d)

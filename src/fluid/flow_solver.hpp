@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Incompressible flow around moving sheets: the third-order Runge-Kutta projection scheme "rk3".
+// Incompressible flow around moving sheets: projection schemes of Runge-Kutta type.
 //
 //   du/dt = -div(u u) + nu lap u - grad p + f,   div u = 0,   u = u_b on sheets.
 //
-// Wray's three stages, projected in stages 2 and 3, with the diagonal of cut links implicit
+// "rk3": Wray's three stages, projected in stages 2 and 3, with the diagonal of cut links implicit
 // (docs/numerics/time-scheme.md):
 //
 //   du <- du + dt (gamma_s N(u^{s-1}) + zeta_s N(u^{s-2}))
@@ -13,8 +13,15 @@
 //   s = 2, 3:   div G p_s = div U*/(c_s dt),  U^s = U* - c_s dt G p_s
 //   u^s from U^s.
 //
-// What does not depend on the sheet's current velocity (stages 1, 2 and the rates of stage 3) is done once per step in
-// begin_step(); a coupling iteration, project(), touches the cut cells, the faces and the pressure of stage 3 only.
+// "newton-krylov": Alexander's two stages, both projected, of second order for steps of any length:
+//
+//   du = du_known + gamma dt N(u, U),   u = u^n + du - c dt G p + e,   U = U^n + A <du> - c dt G p,
+//
+// solved by Newton's method without a Jacobian; p from the stage before, e what recovering u from U changes.
+//
+// What does not depend on the sheet's current velocity (the stages before the last, and the rates of the last) is done
+// once per step in begin_step(); a coupling iteration, project(), touches the cut cells, the faces and the pressure of
+// the last stage only.
 #pragma once
 
 #include <memory>
@@ -25,12 +32,15 @@
 #include "core/profile.hpp"
 #include "core/time_step.hpp"
 #include "fluid/boundary.hpp"
-#include "immersed/cross_terms.hpp"
 #include "fluid/component_balance.hpp"
+#include "fluid/newton_krylov.hpp"
+#include "fluid/stages.hpp"
+#include "immersed/cross_terms.hpp"
 #include "immersed/cut_cells.hpp"
 #include "immersed/cut_links.hpp"
 #include "immersed/loads.hpp"
 #include "immersed/wall_nodes.hpp"
+#include "operators/line_factors.hpp"
 #include "operators/momentum.hpp"
 #include "parallel/halo.hpp"
 #include "poisson/pressure_solver.hpp"
@@ -46,13 +56,14 @@ enum class ImmersedScheme {
 };
 
 struct FlowOptions {
+  TimeScheme scheme = TimeScheme::Rk3;
   ImmersedScheme immersed = ImmersedScheme::CutLink;
   double density = 1.0;
   double viscosity = 0.0;                                               ///< kinematic [L^2/T]
   VectorFunction acceleration = VectorFunction::uniform(Vec3::Zero());  ///< body force per mass [L/T^2]
-  double divergence = 5e-14;                                            ///< target of max |div U| h/|U| in stage 3
-  /// Relative residual left by the projection of stage 2.  A tenth would do for stability and second order, but what is
-  /// left depends on the multigrid hierarchy, and with it on the number of ranks.
+  double divergence = 5e-14;  ///< target of max |div U| h/|U| in the last stage
+  /// Relative residual left by projections before the last.  A tenth would do for stability and second order, but what
+  /// is left depends on the multigrid hierarchy, and with it on the number of ranks.
   double stage_reduction = 1e-9;
   int max_iterations = 100;  ///< of each pressure solve
 };
@@ -66,10 +77,6 @@ struct FlowState {
   int steps = 0;           ///< accepted so far
 };
 
-/// Recommended limits of the scheme (docs/numerics/time-scheme.md): sum_d |U_d| dt/h_d, and nu dt sum_d 1/h_d^2.
-inline constexpr double convective_limit = 1.2;
-inline constexpr double diffusive_limit = 0.5;
-
 class FlowSolver {
  public:
   FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries boundaries,
@@ -78,10 +85,11 @@ class FlowSolver {
   /// Sets and projects the velocity at t_0; no sheets yet.  Throws RunError when the projection fails.
   void start(const VectorFunction& velocity, double t_0);
 
-  /// Stages 1 and 2, and the explicit part of stage 3, from the accepted state; the geometry of the sheets is frozen.
+  /// The stages before the last, and of the last what the sheets' current velocity leaves, from the accepted state; the
+  /// geometry of the sheets is frozen.
   void begin_step(const TimeStep& step, const immersed::SheetMotion& predicted);
 
-  /// Stage 3 with the sheets' current velocity: trial fluxes, divergence-free in every cell, and pressure.
+  /// The last stage with the sheets' current velocity: trial fluxes, divergence-free in every cell, and pressure.
   /// Repeatable within a step.  Throws RunError, naming step, time and place, when the pressure does not converge.
   poisson::Report project(std::span<const Vec3> sheet_velocity);
 
@@ -110,6 +118,8 @@ class FlowSolver {
   [[nodiscard]] const ComponentBalance& balance() const { return balance_; }
   [[nodiscard]] const grid::Grid& grid() const { return grid_; }
   [[nodiscard]] const FlowOptions& options() const { return options_; }
+  /// Of the step's implicit stages together; the residual is the largest [L/T].  All zero with an explicit scheme.
+  [[nodiscard]] const NewtonReport& newton() const { return newton_; }
   /// Time spent since the caller last reset it.
   [[nodiscard]] Profile& profile() const { return profile_; }
   /// Halos of velocity and pressure of the accepted state, as output and probes need them.
@@ -123,15 +133,23 @@ class FlowSolver {
  private:
   void fill_velocity_halo(const View3<double>& u);
   void find_cut_links(const immersed::SheetMotion& predicted, double speed);
-  void advance_stage(int stage);
+  void begin_explicit(std::span<const Stage> stages);
+  void begin_implicit(std::span<const Stage> stages);
+  void solve_stage(const Stage& stage);
+  void freeze_pressure_part(const Stage& stage);
+  void set_implicit_velocity();
+  void find_recovered_part();
+  void implicit_increment(const View3<double>& du);
+  void set_body_velocity(const immersed::StageTime& time);
+  void advance_stage(const Stage& stage);
   void add_cross_terms(const immersed::StageTime& time);
   void change_cross_terms_beside(const operators::StageWeights& weights);
   void add_varying_force(const operators::StageWeights& weights, double t);
-  void replace_rates_of_cut_cells(int stage, const operators::StageWeights& weights);
-  void freeze_pressure_push(int stage);
-  void give_to_wall_nodes(int stage);
-  void bind_to_walls(int stage, bool current_velocity);
-  [[nodiscard]] Vec3 momentum_beside_wall(std::size_t n, int stage, bool current_velocity) const;
+  void replace_rates_of_cut_cells(const Stage& stage, const operators::StageWeights& weights);
+  void freeze_pressure_push(const Stage& stage);
+  void give_to_wall_nodes(const Stage& stage);
+  void bind_to_walls(const Stage& stage, immersed::SheetVelocity velocity);
+  [[nodiscard]] Vec3 momentum_beside_wall(std::size_t n, const Stage& stage, immersed::SheetVelocity velocity) const;
   void interpolate_increment();
   void prescribe_fluxes(const immersed::StageTime& time);
   void compute_fluxes(const immersed::StageTime& time);
@@ -167,6 +185,14 @@ class FlowSolver {
   Field<double> p_load_;      ///< pressure extrapolated to t^{n+1}
   Field3<double> increment_;  ///< du = u^ - u^n, u^ the pressure-free velocity
   Field3<double> rate_;       ///< N of the stage before
+
+  std::unique_ptr<NewtonKrylov> momentum_;  ///< of the implicit scheme; so are the next ones
+  std::optional<operators::LineFactors> lines_;
+  Field3<double> known_;      ///< part of du that earlier stages give
+  Field3<double> unpushed_;   ///< u^n - c dt G p
+  Field3<double> recovered_;  ///< e, see find_recovered_part()
+  Stage implicit_stage_{};
+  NewtonReport newton_;
 
   std::vector<immersed::CutCellTerms> terms_;  ///< of links_.cells()
   std::vector<Vec3> explicit_increment_;       ///< du of cut cells before the implicit wall terms of the stage

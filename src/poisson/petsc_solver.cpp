@@ -1,59 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "poisson/petsc_solver.hpp"
 
-#include <petscksp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
 
-#include "core/error.hpp"
+#include "poisson/petsc.hpp"
 
 namespace luff::poisson {
 
 namespace {
 
-void check(PetscErrorCode code)
-{
-  if (code == 0)
-    return;
-  const char* text = nullptr;
-  PetscErrorMessage(code, &text, nullptr);
-  fail_run("PETSc failed with error {}: {}", static_cast<int>(code), text != nullptr ? text : "no message");
-}
-
-void initialise_petsc()
-{
-  PetscBool ready = PETSC_FALSE;
-  check(PetscInitialized(&ready));
-  if (ready == PETSC_TRUE)
-    return;
-  check(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"));
-  check(PetscInitializeNoArguments());
-  check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
-}
-
-/// Owns a PETSc object.
-template <class Handle, PetscErrorCode (*destroy)(Handle*)>
-class Petsc {
- public:
-  Petsc() { initialise_petsc(); }
-  Petsc(const Petsc&) = delete;
-  Petsc& operator=(const Petsc&) = delete;
-  ~Petsc() { reset(); }
-  void reset()
-  {
-    if (handle_ != nullptr)
-      destroy(&handle_);
-    handle_ = nullptr;
-  }
-  operator Handle() const { return handle_; }  // NOLINT: stands in for the handle in PETSc's calls
-  Handle* out() { return &handle_; }
-
- private:
-  Handle handle_ = nullptr;
-};
+using petsc::check;
 
 /// Makes the singular matrix of closed domains definite; the refinement of the fluxes removes what it does to them.
 constexpr double relative_shift = 1e-9;
@@ -124,9 +83,9 @@ class PetscSolver final : public PressureSolver {
   Field<double> correction_;
   Field3<double> conductance_;  // A / d of every face, 0 where closed
   std::vector<FaceIndex> blocked_;
-  Petsc<Mat, MatDestroy> matrix_;
-  Petsc<KSP, KSPDestroy> krylov_;
-  Petsc<Vec, VecDestroy> solution_, right_hand_side_;
+  petsc::Matrix matrix_;
+  petsc::Krylov krylov_;
+  petsc::Vector solution_, right_hand_side_;
 };
 
 template <class Cell>
@@ -362,7 +321,6 @@ Report PetscSolver::project(const View3<double>& U, const View<double>& p, doubl
 
 std::unique_ptr<PressureSolver> make_petsc_solver(const grid::Grid& grid, const SideConditions& sides)
 {
-  initialise_petsc();
   return std::make_unique<PetscSolver>(grid, sides);
 }
 

@@ -30,6 +30,7 @@ struct LoadedShell {
 [[nodiscard]] shell::LinearSolverKind build_solver(config::StructureSolver solver);
 [[nodiscard]] std::unique_ptr<Structure> build_structure(const config::Case& options);
 
+[[nodiscard]] fluid::TimeScheme time_scheme(config::TimeScheme scheme);
 [[nodiscard]] fluid::Boundaries build_boundaries(const config::Case& options);
 /// Collective.
 [[nodiscard]] std::unique_ptr<grid::Grid> build_grid(MPI_Comm comm, const config::Case& options);

@@ -66,10 +66,20 @@ fluid::SideBoundary side_of(const config::SideOptions& options, double density)
   return side;
 }
 
+}  // namespace
+
+fluid::TimeScheme time_scheme(config::TimeScheme scheme)
+{
+  return scheme == config::TimeScheme::NewtonKrylov ? fluid::TimeScheme::NewtonKrylov : fluid::TimeScheme::Rk3;
+}
+
+namespace {
+
 fluid::FlowOptions flow_options(const config::Case& options)
 {
   const config::FluidOptions& fluid = *options.fluid;
   fluid::FlowOptions flow;
+  flow.scheme = time_scheme(options.time.scheme);
   if (options.immersed.scheme == config::ImmersedScheme::Curvib)
     flow.immersed = fluid::ImmersedScheme::Curvib;
   flow.density = fluid.density;

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/time_step.hpp"
-#include "fluid/flow_solver.hpp"
+#include "fluid/stages.hpp"
 
 namespace luff::simulation {
 
@@ -15,6 +15,7 @@ namespace luff::simulation {
 struct StepRates {
   double convective = 0.0;  ///< max over cells of sum_d |U_d|/h_d [1/T]
   double diffusive = 0.0;   ///< nu sum_d 1/h_d^2 [1/T]
+  fluid::StepLimits limits = fluid::step_limits(fluid::TimeScheme::Rk3);
 };
 
 class Clock {
@@ -36,7 +37,7 @@ class Clock {
     if (cfl_ && rates.convective > 0.0)
       dt = std::min(dt, *cfl_ / rates.convective);
     if (cfl_ && rates.diffusive > 0.0)
-      dt = std::min(dt, fluid::diffusive_limit / rates.diffusive);
+      dt = std::min(dt, rates.limits.diffusive / rates.diffusive);
     dt = std::ldexp(dt, -rejections_);
     const double left = end_ - now_;
     // The last steps share what is left, so that none is a splinter.

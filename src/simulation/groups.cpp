@@ -104,7 +104,10 @@ void describe_flow(const config::Case& options, const Structure& structure, cons
   if (grid.kind() == grid::Kind::Curvilinear)
     describe_quality(grid, lines);
   // 24 doubles per cell for the flow, as much again at most for the pressure's multigrid; 19 for curvilinear metrics.
-  const double bytes = grid.kind() == grid::Kind::Curvilinear ? 550.0 : 400.0;
+  double bytes = grid.kind() == grid::Kind::Curvilinear ? 550.0 : 400.0;
+  // Fields, factors and up to thirty directions of Krylov's method.
+  if (options.time.scheme == config::TimeScheme::NewtonKrylov)
+    bytes += 900.0;
   lines.push_back(fmt::format("memory about {:.0f} MB for the flow", spacing.cells * bytes / 1e6));
   if (length > 0.0 && speed > 0.0) {
     if (viscosity > 0.0)
@@ -113,11 +116,12 @@ void describe_flow(const config::Case& options, const Structure& structure, cons
     lines.push_back(fmt::format("cells per length L/h = {:.1f}", length / h.minCoeff()));
   }
   const double dt = options.time.step;
+  const fluid::StepLimits limits = fluid::step_limits(time_scheme(options.time.scheme));
   lines.push_back(
       fmt::format("CFL number of the free stream at most {:.2f} (recommended {}), diffusion number {:.3f} "
                   "(recommended {})",
-                  speed * dt / h.minCoeff(), fluid::convective_limit,
-                  viscosity * dt * h.cwiseAbs2().cwiseInverse().sum(), fluid::diffusive_limit));
+                  speed * dt / h.minCoeff(), limits.convective, viscosity * dt * h.cwiseAbs2().cwiseInverse().sum(),
+                  limits.diffusive));
   const double steps = std::ceil(options.time.end / dt);
   // Measured on one core of 2023: benchmarks/README.md.
   const double microseconds = options.shells.empty() ? 0.3 : 0.8;

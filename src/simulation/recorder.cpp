@@ -36,6 +36,7 @@ std::vector<output::Column> step_columns()
                                       {"dt", "time"},
                                       {"cfl", ""},
                                       {"pressure_iterations", ""},
+                                      {"momentum_iterations", ""},
                                       {"max_divergence", ""},
                                       {"coupling_iterations", ""},
                                       {"coupling_residual", ""},
@@ -229,6 +230,7 @@ void Recorder::write_steps(const StepRecord& record)
                           record.step.dt,
                           flows ? record.rates.convective * record.step.dt : nothing,
                           flows ? double(record.flow.pressure_iterations) : nothing,
+                          flows ? double(record.flow.momentum_iterations) : nothing,
                           flows ? record.flow.divergence : nothing,
                           double(record.coupling.iterations),
                           record.coupling.residual,
@@ -290,13 +292,14 @@ void Recorder::warn_about_limits(const StepRecord& record)
 {
   const double cfl = record.rates.convective * record.step.dt;
   const double diffusion = record.rates.diffusive * record.step.dt;
-  if (cfl <= fluid::convective_limit && diffusion <= fluid::diffusive_limit)
+  const fluid::StepLimits& limits = record.rates.limits;
+  if (cfl <= limits.convective && diffusion <= limits.diffusive)
     return;
   if (tally_.steps_beyond_limits++ == 0)
     log_->warn(
         "step {}, t = {:.6g}: CFL {:.2f} (recommended at most {}), diffusion number {:.2f} (at most {}): the run may "
         "become unstable; shorten time.step or set time.cfl",
-        record.step.index, record.step.t_new, cfl, fluid::convective_limit, diffusion, fluid::diffusive_limit);
+        record.step.index, record.step.t_new, cfl, limits.convective, diffusion, limits.diffusive);
 }
 
 /// Moments of rigid sheets are about their centres.

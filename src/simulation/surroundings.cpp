@@ -30,6 +30,7 @@ void Flow::begin_step(const TimeStep& step, const immersed::SheetMotion& predict
   require_inside(*grid_, predicted, step);
   report_ = {};
   solver_->begin_step(step, predicted);
+  report_.momentum_iterations = solver_->newton().krylov_iterations;
 }
 
 immersed::SheetLoads Flow::loads(std::span<const Vec3> sheet_velocity)

@@ -13,6 +13,7 @@ namespace luff::simulation {
 /// What the flow did in the last step.
 struct FlowReport {
   int pressure_iterations = 0;  ///< of all coupling iterations together
+  int momentum_iterations = 0;  ///< Krylov's, of an implicit scheme
   double divergence = 0.0;      ///< max |div U| h/|U|
 };
 
@@ -44,7 +45,7 @@ class Flow : public Surroundings {
   }
   [[nodiscard]] StepRates step_rates() const override
   {
-    return {solver_->convective_rate(), solver_->diffusive_rate()};
+    return {solver_->convective_rate(), solver_->diffusive_rate(), fluid::step_limits(solver_->options().scheme)};
   }
   void begin_step(const TimeStep& step, const immersed::SheetMotion& predicted) override;
   [[nodiscard]] immersed::SheetLoads loads(std::span<const Vec3> sheet_velocity) override;

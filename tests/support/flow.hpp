@@ -13,6 +13,8 @@
 
 namespace luff::test {
 
+constexpr fluid::StepLimits rk3_limits = fluid::step_limits(fluid::TimeScheme::Rk3);
+
 inline fluid::Boundaries all_sides(fluid::SideKind kind, const fluid::VectorFunction& velocity)
 {
   fluid::Boundaries sides;

@@ -16,7 +16,8 @@ struct Units {
 
 /// Vortices in a stream along x through a box with outlet, periodic along z.
 inline std::unique_ptr<TestFlow> make_stretched_flow(MPI_Comm comm, const Units& unit = {},
-                                                     fluid::ImmersedScheme scheme = fluid::ImmersedScheme::CutLink)
+                                                     fluid::ImmersedScheme immersed = fluid::ImmersedScheme::CutLink,
+                                                     fluid::TimeScheme scheme = fluid::TimeScheme::Rk3)
 {
   using fluid::SideBoundary;
   using fluid::SideKind;
@@ -36,7 +37,9 @@ inline std::unique_ptr<TestFlow> make_stretched_flow(MPI_Comm comm, const Units&
   auto flow = std::make_unique<TestFlow>(
       std::array{scaled(stretched_faces(-1, 2, 36, 0.3)), scaled(stretched_faces(-1, 1, 24, -0.3)),
                  scaled(stretched_faces(0, 1, 16, 0.2))},
-      sides, fluid::FlowOptions{.immersed = scheme, .density = 1.0, .viscosity = 0.01 * unit.length * unit.speed()},
+      sides,
+      fluid::FlowOptions{
+          .scheme = scheme, .immersed = immersed, .density = 1.0, .viscosity = 0.01 * unit.length * unit.speed()},
       comm);
   const double pi = std::numbers::pi;
   flow->solver.start({[unit, pi](const Vec3& X, double) -> Vec3 {
@@ -85,9 +88,10 @@ struct Signature {
 };
 
 inline Signature run_stretched_flow(MPI_Comm comm, int steps, bool with_sheet, const Units& unit = {},
-                                    fluid::ImmersedScheme scheme = fluid::ImmersedScheme::CutLink)
+                                    fluid::ImmersedScheme immersed = fluid::ImmersedScheme::CutLink,
+                                    fluid::TimeScheme scheme = fluid::TimeScheme::Rk3)
 {
-  const auto flow = make_stretched_flow(comm, unit, scheme);
+  const auto flow = make_stretched_flow(comm, unit, immersed, scheme);
   const double dt = 0.01 * unit.time;
   Vec3 force = Vec3::Zero();
   for (int n = 0; n < steps; ++n) {

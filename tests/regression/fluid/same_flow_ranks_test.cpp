@@ -12,7 +12,7 @@
 namespace luff::test {
 namespace {
 
-void expect_same(const Signature& together, const Signature& alone)
+void expect_same(const Signature& together, const Signature& alone, double tolerance = 1e-11)
 {
   const double difference = alone.difference(together);
   int rank = 0;
@@ -20,8 +20,8 @@ void expect_same(const Signature& together, const Signature& alone)
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   if (rank == 0)
-    std::cout << "  " << ranks << " ranks against one after 50 steps: " << difference << " relative\n";
-  EXPECT_LE(difference, 1e-11);
+    std::cout << "  " << ranks << " ranks against one: " << difference << " relative\n";
+  EXPECT_LE(difference, tolerance);
 }
 
 void expect_same_on_all_ranks(bool with_sheet, fluid::ImmersedScheme scheme = fluid::ImmersedScheme::CutLink)
@@ -68,6 +68,17 @@ TEST(FlowOnRanks, IsThatOfOneRankAfterFiftyStepsAroundAMovingSheet)
 TEST(FlowOnRanks, IsThatOfOneRankAfterFiftyStepsAroundAMovingSheetWithTheSchemeCurvib)
 {
   expect_same_on_all_ranks(/*with_sheet=*/true, fluid::ImmersedScheme::Curvib);
+}
+
+/// Krylov's method stops where the residual is small, which depends on the ranks: its tolerance is 1e-11 of the speed.
+TEST(FlowOnRanks, IsThatOfOneRankAfterTwentyImplicitStepsAroundAMovingSheet)
+{
+  for (const auto immersed : {fluid::ImmersedScheme::CutLink, fluid::ImmersedScheme::Curvib}) {
+    const auto run = [immersed](MPI_Comm comm) {
+      return run_stretched_flow(comm, 20, /*with_sheet=*/true, {}, immersed, fluid::TimeScheme::NewtonKrylov);
+    };
+    expect_same(run(MPI_COMM_WORLD), run(MPI_COMM_SELF), 1e-9);
+  }
 }
 
 TEST(FlowOnRanks, IsThatOfOneRankAfterFiftyStepsOnACurvilinearGrid)

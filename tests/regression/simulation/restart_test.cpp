@@ -157,14 +157,22 @@ TEST_F(Restart, GivesTheSameBitsOfAClosedBodyThatTheFlowMoves)
   const Outcome run = go_on();
   ASSERT_EQ(run.status, 0) << run.said;
   expect_same_files(whole, parts);
-  EXPECT_EQ(difference(whole / "checkpoint-00000010.h5", parts / "checkpoint-00000010.h5",
-                       flow_names + Words{"bodies/free"}),
-            0);
+  EXPECT_EQ(
+      difference(whole / "checkpoint-00000010.h5", parts / "checkpoint-00000010.h5", flow_names + Words{"bodies/free"}),
+      0);
 }
 
 TEST_F(Restart, GivesTheSameBitsWithAitkensFactor)
 {
   prepare(changed(small_flag, "[output]\n", "[coupling]\nacceleration = \"aitken\"\n[output]\n"));
+  const Outcome run = go_on();
+  ASSERT_EQ(run.status, 0) << run.said;
+  expect_same_files(whole, parts);
+}
+
+TEST_F(Restart, GivesTheSameBitsOfAnImplicitFlow)
+{
+  prepare(changed(small_flag, "[time]\n", "[time]\nscheme = \"newton-krylov\"\n"));
   const Outcome run = go_on();
   ASSERT_EQ(run.status, 0) << run.said;
   expect_same_files(whole, parts);

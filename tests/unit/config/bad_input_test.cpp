@@ -275,7 +275,8 @@ const BadInput rules[] = {
 
 const BadInput not_yet[] = {
     {"ATimeScheme", "step = 0.01", "step = 0.01\nscheme = \"sbdf2\"",
-     "case.toml:5: time.scheme = \"sbdf2\" is known but not available in this version; it must be \"rk3\""},
+     "case.toml:5: time.scheme = \"sbdf2\" is known but not available in this version; it must be \"rk3\" or "
+     "\"newton-krylov\""},
     {"Turbulence", "viscosity = 0.01", "viscosity = 0.01\nturbulence = { model = \"smagorinsky\" }",
      "case.toml:8: fluid.turbulence is not available in this version (available here: density, viscosity, body_force, "
      "initial)"},

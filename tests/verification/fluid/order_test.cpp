@@ -59,10 +59,10 @@ TEST(Order, KovasznayFlowBetweenPrescribedVelocitiesOnAStretchedGridIsSecondOrde
 /// The same grid with different steps, against very small steps: the error in time alone.
 class TimeError {
  public:
-  TimeError() : reference_(march(320)) {}
+  explicit TimeError(fluid::TimeScheme scheme) : scheme_(scheme), reference_(march(scheme, 320)) {}
   [[nodiscard]] Errors operator()(int steps) const
   {
-    const auto flow = march(steps);
+    const auto flow = march(scheme_, steps);
     const auto& a = flow->solver.state();
     const auto& b = reference_->solver.state();
     const auto square = [&](auto value) {
@@ -81,26 +81,35 @@ class TimeError {
   }
 
  private:
-  static std::unique_ptr<TestFlow> march(int steps)
+  static std::unique_ptr<TestFlow> march(fluid::TimeScheme scheme, int steps)
   {
     const TaylorGreen vortices{.viscosity = 0.05, .stream = {1.0, 0.5, 0.0}, .k = 1.0};
     auto flow = std::make_unique<TestFlow>(
         std::array{stretched_faces(0, 2 * pi, 32, 0.3), stretched_faces(0, 2 * pi, 32, 0.2), std::vector{0.0, 0.2}},
         all_sides(fluid::SideKind::Periodic, vortices.function()),
-        fluid::FlowOptions{.viscosity = vortices.viscosity, .stage_reduction = 0.0});
+        fluid::FlowOptions{.scheme = scheme, .viscosity = vortices.viscosity, .stage_reduction = 0.0});
     flow->solver.start(vortices.function(), 0.0);
     flow->advance(1.6 / steps, steps);
     return flow;
   }
+  fluid::TimeScheme scheme_;
   std::unique_ptr<TestFlow> reference_;
 };
 
 TEST(Order, VelocityIsThirdOrderAndPressureSecondOrderInTime)
 {
-  const TimeError error;
+  const TimeError error(fluid::TimeScheme::Rk3);
   const Errors coarse = error(20);
   const Errors fine = error(40);
   expect_orders(coarse, fine, 2.8);
+}
+
+TEST(Order, OfTheImplicitSchemeInTimeIsTwo)
+{
+  const TimeError error(fluid::TimeScheme::NewtonKrylov);
+  const Errors coarse = error(20);
+  const Errors fine = error(40);
+  expect_orders(coarse, fine, 1.9);
 }
 
 }  // namespace

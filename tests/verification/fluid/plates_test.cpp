@@ -198,15 +198,15 @@ TEST_P(LongSteps, UpToTheRecommendedLimitKeepAMovingPlateStable)
   double largest = 0.0;
   int steps = 0;
   for (; flow->t < 2.0; ++steps) {
-    const double dt = fluid::convective_limit / std::max(flow->solver.convective_rate(), 1.0 / h);
+    const double dt = rk3_limits.convective / std::max(flow->solver.convective_rate(), 1.0 / h);
     flow->step(dt, plate.at(flow->t + dt, slab.depth));
     if (flow->t > 0.5)
       largest = std::max(largest, coefficients(total_force(flow->solver.loads()), slab.depth).norm());
     flow->solver.accept();
   }
-  std::cout << "  sum of |U_d| dt/h_d = " << fluid::convective_limit << ", cell Re " << GetParam() << ": " << steps
+  std::cout << "  sum of |U_d| dt/h_d = " << rk3_limits.convective << ", cell Re " << GetParam() << ": " << steps
             << " steps, largest force coefficient after the start " << largest << '\n';
-  EXPECT_GE(fluid::convective_limit, 1.0);
+  EXPECT_GE(rk3_limits.convective, 1.0);
   EXPECT_LE(largest, 7.0);
   EXPECT_LE(flow->largest_divergence, 1e-13);
 }

@@ -66,8 +66,8 @@ void expect_order(const ShearError& coarse, const ShearError& fine)
 /// Marches to `end` with the fraction 0.6 of the longest step that the scheme is stable with.
 void march(TestFlow& flow, double end)
 {
-  const double dt = 0.6 * std::min(fluid::convective_limit / flow.solver.convective_rate(),
-                                   fluid::diffusive_limit / flow.solver.diffusive_rate());
+  const double dt = 0.6 * std::min(rk3_limits.convective / flow.solver.convective_rate(),
+                                   rk3_limits.diffusive / flow.solver.diffusive_rate());
   const int steps = static_cast<int>(std::ceil(end / dt));
   flow.advance(end / steps, steps);
 }
@@ -171,7 +171,7 @@ double speed_left(TestFlow& flow, int steps)
             std::sin(97.0 * x[0] - 61.0 * x[1])};
   };
   flow.solver.start({jagged, false}, 0.0);
-  flow.advance(fluid::diffusive_limit / flow.solver.diffusive_rate(), steps);
+  flow.advance(rk3_limits.diffusive / flow.solver.diffusive_rate(), steps);
   flow.solver.fill_halos();
   return operators::largest_speed(flow.grid, views(flow.solver.state().u));
 }
