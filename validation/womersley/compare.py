@@ -26,7 +26,6 @@ import matplotlib.pyplot as plt
 here = Path(__file__).resolve().parent
 root = here.parent.parent
 OMEGA = 2.0 * math.pi
-PLACES = [round(-0.975 + 0.075 * n, 3) for n in range(27)]
 
 CASE = """title = "Oscillating channel flow, alpha = {alpha}"
 [time]
@@ -48,6 +47,12 @@ y_max = {{ type = "wall" }}
 z_min = {{ type = "symmetry" }}
 z_max = {{ type = "symmetry" }}
 """
+
+
+def places(cells):
+    """Centres of cells, all those near the walls and every third between: nothing is interpolated."""
+    h = 2.0 / cells
+    return [-1.0 + h * (n + 0.5) for n in sorted({*range(6), *range(0, cells, 3), *range(cells - 6, cells)})]
 
 
 def amplitude(alpha, y):
@@ -72,7 +77,7 @@ def run(alpha, cells, out):
         step = min(0.005, 0.4 * (2.0 / cells) ** 2 / viscosity)
         text = CASE.format(alpha=alpha, step=2.0 / math.ceil(2.0 / step), viscosity=viscosity, cells=cells,
                            start=start_formula(alpha))
-        text += "".join(f'[[output.probe]]\nname = "y{n}"\npoint = [2.0, {y}, 0.5]\n' for n, y in enumerate(PLACES))
+        text += "".join(f'[[output.probe]]\nname = "y{n}"\npoint = [2.0, {y}, 0.5]\n' for n, y in enumerate(places(cells)))
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "case.toml").write_text(text)
         subprocess.run([root / "luff", "run", folder / "case.toml", "--out", folder / "run"], check=True)
@@ -95,9 +100,9 @@ def main():
     figure, axes = plt.subplots(1, len(alphas), figsize=(11, 4))
     for alpha, axis in zip(alphas, axes):
         folder = run(alpha, options.cells, options.out)
-        histories = [history(folder, n) for n in range(len(PLACES))]
+        histories = [history(folder, n) for n in range(len(places(options.cells)))]
         error, largest = 0.0, 0.0
-        for y, values in zip(PLACES, histories):
+        for y, values in zip(places(options.cells), histories):
             for t, u in values:
                 exact = (amplitude(alpha, y) * cmath.exp(1j * OMEGA * t)).real
                 error, largest = max(error, abs(u - exact)), max(largest, abs(exact))
@@ -107,7 +112,7 @@ def main():
             t = histories[0][at][0]
             fine = [-1.0 + 0.01 * m for m in range(201)]
             axis.plot([(amplitude(alpha, y) * cmath.exp(1j * OMEGA * t)).real for y in fine], fine, "k-", lw=0.8)
-            axis.plot([values[at][1] for values in histories], PLACES, ".", label=f"t = {phase}")
+            axis.plot([values[at][1] for values in histories], places(options.cells), ".", label=f"t = {phase}")
         axis.set(title=f"alpha = {alpha}", xlabel="u", ylabel="y")
     axes[0].legend(fontsize=7)
     figure.tight_layout()
