@@ -167,6 +167,10 @@ void describe(Schema& s, OutputOptions& output)
   s.table("checkpoint", output.checkpoint,
           {.doc = "Everything that the run can go on from, with `luff run CASE --restart RUN`; the last two are kept. "
                   "Absent: only when a run is stopped or fails. Motion in time only."});
+  s.key("audit", output.audit,
+        {.doc = "Steps between audits of the forces of the flow: their sum over a surface against the momentum of the "
+                "fluid around it (`audit.csv`, `force_mismatch` in `steps.csv`, `audit` in the summary). 0: none.",
+         .range = not_negative});
   s.key("plots", output.plots, {.doc = "Make the pictures of `luff plot` when the run ends."});
   s.list("probe", output.probes, {.doc = "A point whose history is written in every step."});
 }

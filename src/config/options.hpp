@@ -450,6 +450,7 @@ struct OutputOptions {
   std::optional<FieldOutputOptions> fields;           ///< none: not written
   std::optional<ShellOutputOptions> shells;           ///< none: not written
   std::optional<CheckpointOutputOptions> checkpoint;  ///< none: only when the run is stopped or fails
+  int audit = 10;                                     ///< steps between audits of forces; 0: none
   bool plots = false;                                 ///< make the pictures of `luff plot` when the run ends
   std::vector<ProbeOptions> probes;
 

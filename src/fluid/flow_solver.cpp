@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "fluid/momentum_balance.hpp"
 #include "operators/vector_algebra.hpp"
 #include "parallel/vector_field.hpp"
 
@@ -44,6 +45,7 @@ FlowSolver::FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries b
       balance_(grid),
       state_{make_field3<double>(grid.owned()), make_field3<double>(grid.owned()), Field<double>(grid.owned()),
              Field<double>(grid.owned())},
+      u_before_(make_field3<double>(grid.owned())),
       u_(make_field3<double>(grid.owned())),
       U_(make_field3<double>(grid.owned())),
       p_(grid.owned()),
@@ -257,6 +259,7 @@ void FlowSolver::accept()
   links_.accept();
   if (wall_nodes_)
     wall_nodes_->accept(links_);
+  std::swap(u_before_, state_.u);
   state_.u = u_;
   std::swap(state_.U, U_);
   std::swap(state_.p_before, state_.p);
@@ -637,6 +640,48 @@ std::vector<SideStress> FlowSolver::side_stresses(bool walls_only) const
       p *= options_.density;
   }
   return sides;
+}
+
+IndexBox FlowSolver::cells_around(int first_triangle, int count, int margin) const
+{
+  Index3 lo = grid_.cells();
+  Index3 hi{0, 0, 0};
+  for (const immersed::CutFace& face : links_.faces()) {
+    const int triangle = links_.crossings()[face.first].triangle;
+    if (triangle < first_triangle || triangle >= first_triangle + count)
+      continue;
+    for (int d = 0; d < 3; ++d) {
+      lo[d] = std::min(lo[d], face.cell[d] - (d == face.axis ? 1 : 0));
+      hi[d] = std::max(hi[d], face.cell[d] + 1);
+    }
+  }
+  for (int d = 0; d < 3; ++d) {
+    lo[d] = std::max(0, -static_cast<int>(grid_.ranks().max(-lo[d])) - margin);
+    hi[d] = std::min(grid_.cells()[d], static_cast<int>(grid_.ranks().max(hi[d])) + margin);
+  }
+  return {lo, hi};
+}
+
+Vec3 FlowSolver::force_by_momentum(const IndexBox& box)
+{
+  const auto timer = profile_.time(Phase::Loads);
+  fill_velocity_halo(views(u_before_));
+  fill_halos();
+  const FlowOverStep step{.u_old = views(std::as_const(u_before_)),
+                          .U_old = views(std::as_const(U_)),  // swapped by accept()
+                          .u = views(std::as_const(state_.u)),
+                          .U = views(std::as_const(state_.U)),
+                          .p = state_.p.view(),
+                          .dt = step_.dt};
+  Vec3 force = momentum_lost(grid_, box, step, options_.viscosity);
+  const double t = 0.5 * (step_.t_old + step_.t_new);
+  Vec3 body_force = Vec3::Zero();
+  for_each_cell_in_order(intersection(box, grid_.owned()), [&](int i, int j, int k) {
+    body_force += grid_.volume(i, j, k) * options_.acceleration.value(grid_.centre(i, j, k), t);
+  });
+  for (int d = 0; d < 3; ++d)
+    force[d] += grid_.ranks().sum(body_force[d]);
+  return options_.density * force;
 }
 
 double FlowSolver::largest_speed() const

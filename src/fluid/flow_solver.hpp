@@ -105,6 +105,14 @@ class FlowSolver {
   /// Commits the trial flow as the state at t^{n+1}.
   void accept();
 
+  /// The cells with links that triangles [first, first + count) cut, widened by `margin` cells, in the grid.
+  /// Collective.
+  [[nodiscard]] IndexBox cells_around(int first_triangle, int count, int margin) const;
+  /// What the fluid in a box of cells has lost in the accepted step to what stands in it, by its momentum, in the mean
+  /// of the step [M L/T^2]: independent of loads(), with which it has to agree.  Before the next step begins.
+  /// Collective.
+  [[nodiscard]] Vec3 force_by_momentum(const IndexBox& box);
+
   /// Go on from an accepted state at time t and the offsets of all ranks' cut faces: with state() and
   /// links().accepted_offsets() of the same grid, boundaries and options the same bits as going on. Collective.
   void restore(FlowState state, const immersed::FluxOffsets& offsets, const immersed::NodeOffsets& node_offsets,
@@ -179,6 +187,7 @@ class FlowSolver {
   double speed_ = 0.0;  ///< scale of the velocity in this step [L/T]
 
   FlowState state_;
+  Field3<double> u_before_;   ///< velocity at the start of the accepted step
   Field3<double> u_;          ///< velocity of the latest stage
   Field3<double> U_;          ///< fluxes of the latest stage
   Field<double> p_;           ///< pressure of the latest stage

@@ -268,6 +268,7 @@ void Dynamics::book_work(const State& before, const Eigen::VectorXd& fluid_force
   const Eigen::VectorXd mean_prescribed =
       at_midpoint ? loads_.at(t).force(x) : Eigen::VectorXd(0.5 * (prescribed_forces_ + prescribed));
   ledger_.external_work += moved.dot(mean_prescribed + fluid);
+  ledger_.fluid_work += moved.dot(fluid);
   ledger_.damping_work += moved.dot(damping_force(0.5 * (before.v + state_.v)));
   ledger_.kinetic = 0.5 * state_.v.dot(shell_.mass_times(state_.v));
   ledger_.elastic = shell_.elastic_energy(state_.x, shell_.images_at(state_.x, state_.t));

@@ -26,6 +26,7 @@ struct EnergyLedger {
   double contact = 0;  ///< of the barriers between surfaces that come close
   double damping_work = 0;
   double external_work = 0;
+  double fluid_work = 0;  ///< part of it: of the forces given to solve()
   double support_work = 0;  ///< done by supports that move
 };
 

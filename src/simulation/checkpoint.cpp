@@ -58,6 +58,7 @@ void transfer_shells(File& file, Checkpoint& shells)
   file.value("shells/contact", shells.ledger.contact);
   file.value("shells/damping_work", shells.ledger.damping_work);
   file.value("shells/external_work", shells.ledger.external_work);
+  file.value("shells/fluid_work", shells.ledger.fluid_work);
   file.value("shells/support_work", shells.ledger.support_work);
   file.value("shells/tangent_x", shells.linearisation.x);
   file.value("shells/tangent_x_frozen", shells.linearisation.x_frozen);
@@ -94,6 +95,7 @@ void transfer_tally(File& file, T& tally)
   for (std::size_t n = 0; n < phase_names.size(); ++n)
     file.value(std::string("tally/seconds_") + phase_names[n], tally.phases[n]);
   file.value("tally/restarts", tally.restarts);
+  file.value("tally/audit", tally.audit);
 }
 
 /// Where and when a run stands, and what it counted, besides the states of flow, shells and coupling.

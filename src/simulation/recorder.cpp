@@ -45,6 +45,9 @@ std::vector<output::Column> step_columns()
                                       {"damping_work", "energy"},
                                       {"external_work", "energy"},
                                       {"support_work", "energy"},
+                                      {"fluid_work", "energy"},
+                                      {"flow_work", "energy"},
+                                      {"force_mismatch", ""},
                                       {"contact_energy", "energy"},
                                       {"contact_pairs", ""},
                                       {"smallest_gap", "length"},
@@ -54,6 +57,9 @@ std::vector<output::Column> step_columns()
     columns.push_back({std::string("seconds_") + phase, "s"});
   return columns;
 }
+
+/// Difference of mean forces by traction and by momentum that deserves a warning.
+constexpr double trusted_mismatch = 0.05;
 
 output::NamedField field_of(const std::string& name, const std::vector<Vec3>& values, int first, int count)
 {
@@ -101,6 +107,8 @@ Recorder::Recorder(const output::RunFolder& folder, std::shared_ptr<spdlog::logg
 void Recorder::resume(const Record& earlier)
 {
   tally_ = earlier.tally;
+  if (audit_ && !tally_.audit.empty())
+    audit_->restore(tally_.audit);
   newton_iterations_ = simulation_.structure().newton_iterations();
   recorded_steps_ = simulation_.clock().steps();
   const auto latest = [&](const std::string& name) -> std::optional<double> {
@@ -122,6 +130,8 @@ void Recorder::open_tables(const output::EarlierOutput* earlier)
   steps_.emplace(folder_, "steps.csv", step_columns(), earlier);
   if (options_.fluid && options_.output.fields)
     fields_.emplace(folder_, "fields", earlier);
+  if (options_.fluid && options_.output.audit > 0 && !simulation_.structure().sheets().empty())
+    open_audit(earlier);
   for (const SheetRange& sheet : simulation_.structure().sheets()) {
     surfaces_.emplace_back(folder_, (sheet.deforms ? "shell-" : "body-") + sheet.name, earlier);
     if (options_.fluid)
@@ -135,6 +145,17 @@ void Recorder::open_tables(const output::EarlierOutput* earlier)
         columns.push_back(c);
     motions_.emplace_back(sheet.part, output::CsvWriter(folder_, "motion-" + sheet.name + ".csv", columns, earlier));
   }
+}
+
+void Recorder::open_audit(const output::EarlierOutput* earlier)
+{
+  audit_.emplace(options_.output.audit, simulation_.structure());
+  std::vector<output::Column> columns{{"t", "time"}};
+  for (const SheetRange& sheet : simulation_.structure().sheets())
+    for (const char* name : {"by_traction_", "by_momentum_"})
+      for (const output::Column& c : output::vector_columns(name + sheet.name, "force"))
+        columns.push_back(c);
+  audit_table_.emplace(folder_, "audit.csv", columns, earlier);
 }
 
 void Recorder::open_table_of_forces(const SheetRange& sheet, const output::EarlierOutput* earlier)
@@ -225,6 +246,7 @@ void Recorder::write_steps(const StepRecord& record)
   const shell::EnergyLedger energy = simulation_.structure().energy();
   const bool flows = options_.fluid.has_value();
   const double nothing = std::numeric_limits<double>::quiet_NaN();
+  const double mismatch = audit_ ? audit_forces(record.step) : nothing;
   std::vector<double> row{double(record.step.index),
                           record.step.t_new,
                           record.step.dt,
@@ -238,7 +260,10 @@ void Recorder::write_steps(const StepRecord& record)
                           energy.elastic,
                           energy.damping_work,
                           energy.external_work,
-                          energy.support_work};
+                          energy.support_work,
+                          flows ? energy.fluid_work : nothing,
+                          audit_ ? audit_->flow_work() : nothing,
+                          mismatch};
   append_contact(row);
   auto* flow = simulation_.surroundings().flow();
   row.push_back(flow ? flow->balance().leak() : nothing);
@@ -300,6 +325,63 @@ void Recorder::warn_about_limits(const StepRecord& record)
         "step {}, t = {:.6g}: CFL {:.2f} (recommended at most {}), diffusion number {:.2f} (at most {}): the run may "
         "become unstable; shorten time.step or set time.cfl",
         record.step.index, record.step.t_new, cfl, limits.convective, diffusion, limits.diffusive);
+}
+
+double Recorder::audit_forces(const TimeStep& step)
+{
+  const std::vector<AuditedForce> audited =
+      audit_->record(step, *simulation_.surroundings().flow(), simulation_.structure());
+  tally_.audit = audit_->numbers();
+  if (audited.empty())
+    return std::numeric_limits<double>::quiet_NaN();
+  const std::vector<AuditVerdict> so_far = audit_->verdicts();
+  std::vector<double> row{0.5 * (step.t_old + step.t_new)};
+  double worst = 0.0;
+  for (std::size_t s = 0; s < audited.size(); ++s) {
+    append(row, audited[s].by_traction);
+    append(row, audited[s].by_momentum);
+    if (so_far[s].scale > 0.0)
+      worst = std::max(worst, (audited[s].by_traction - audited[s].by_momentum).norm() / so_far[s].scale);
+  }
+  audit_table_->row(row);
+  return worst;
+}
+
+void Recorder::report_audit(nlohmann::ordered_json& summary) const
+{
+  const auto& sheets = simulation_.structure().sheets();
+  const std::vector<AuditVerdict> verdicts = audit_->verdicts();
+  for (std::size_t s = 0; s < sheets.size(); ++s) {
+    const AuditVerdict& v = verdicts[s];
+    if (v.audits == 0)
+      continue;
+    const auto list = [](const Vec3& x) { return nlohmann::ordered_json{x[0], x[1], x[2]}; };
+    summary["audit"][sheets[s].name] = {{"audits", v.audits},
+                                        {"mean_force_by_traction", list(v.by_traction)},
+                                        {"mean_force_by_momentum", list(v.by_momentum)},
+                                        {"mismatch_of_means", v.mismatch},
+                                        {"rms_of_difference", v.deviation}};
+    log_->info(
+        "force audit of '{}': mean force by traction ({:.4g}, {:.4g}, {:.4g}), by momentum ({:.4g}, {:.4g}, "
+        "{:.4g}), apart {:.1f} %; single steps {:.1f} %",
+        sheets[s].name, v.by_traction[0], v.by_traction[1], v.by_traction[2], v.by_momentum[0], v.by_momentum[1],
+        v.by_momentum[2], 100.0 * v.mismatch, 100.0 * v.deviation);
+    if (v.mismatch > trusted_mismatch)
+      log_->warn(
+          "the forces on '{}' differ by {:.0f} % from what the fluid around it loses: refine the grid there, or "
+          "shorten time.step",
+          sheets[s].name, 100.0 * v.mismatch);
+  }
+  const double work = simulation_.structure().energy().fluid_work;
+  if (audit_->exchanged() > 0.0) {
+    const double apart = std::abs(audit_->flow_work() - work) / audit_->exchanged();
+    summary["audit"]["work"] = {
+        {"by_flow", audit_->flow_work()}, {"on_shells", work}, {"exchanged", audit_->exchanged()}, {"mismatch", apart}};
+    log_->info(
+        "work of the flow on shells: {:.4g} as the flow counts it, {:.4g} as the shells do, apart {:.2f} % of the "
+        "{:.4g} that went to and fro",
+        audit_->flow_work(), work, 100.0 * apart, audit_->exchanged());
+  }
 }
 
 /// Moments of rigid sheets are about their centres.
@@ -480,6 +562,8 @@ std::vector<const output::CsvWriter*> Recorder::tables() const
     all.push_back(&table);
   for (const Probe& probe : probes_)
     all.push_back(probe.csv.get());
+  if (audit_table_)
+    all.push_back(&*audit_table_);
   return all;
 }
 
@@ -586,6 +670,8 @@ void Recorder::finish(Ending ending, const std::string& reason)
   }
   if (simulation_.structure().contact() != nullptr)
     report_contact(summary);
+  if (audit_)
+    report_audit(summary);
   for (std::size_t n = 0; n < phase_names.size(); ++n)
     summary["phases"][phase_names[n]] = tally_.phases[n];
   log_->info("{} at t = {:.6g} after {} steps in {:.1f} s", state, clock.now(), clock.steps(),

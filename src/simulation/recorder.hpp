@@ -20,6 +20,7 @@
 #include "output/series.hpp"
 #include "simulation/cadence.hpp"
 #include "simulation/checkpoint.hpp"
+#include "simulation/force_audit.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/tally.hpp"
 
@@ -63,6 +64,7 @@ class Recorder {
   void append_contact(std::vector<double>& row);
   void count_crossings();
   void report_contact(nlohmann::ordered_json& summary) const;
+  void open_audit(const output::EarlierOutput* earlier);
   void open_table_of_forces(const SheetRange& sheet, const output::EarlierOutput* earlier);
   void write_forces(double t, double dt);
   void write_motions(double t, double dt);
@@ -71,6 +73,9 @@ class Recorder {
   void write_shells(double t, double dt);
   [[nodiscard]] output::SurfaceSnapshot sheet_snapshot(const SheetRange& sheet, double t, double dt,
                                                        const std::vector<immersed::SideTraction>& tractions) const;
+  /// Largest mismatch of this step's audit over the mean force so far; no number where none was due.
+  [[nodiscard]] double audit_forces(const TimeStep& step);
+  void report_audit(nlohmann::ordered_json& summary) const;
   void show_progress(const StepRecord& record);
   void warn_about_limits(const StepRecord& record);
   void report_oscillations(nlohmann::ordered_json& summary);
@@ -91,6 +96,8 @@ class Recorder {
   std::vector<std::pair<int, output::CsvWriter>> motions_;  ///< of rigid sheets that move, by number
   std::optional<output::CsvWriter> steps_;
   std::vector<Probe> probes_;
+  std::optional<ForceAudit> audit_;
+  std::optional<output::CsvWriter> audit_table_;
 
   Tally tally_;
   double started_ = 0.0;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "core/profile.hpp"
 #include "output/earlier_output.hpp"
@@ -26,6 +27,7 @@ struct Tally {
   double seconds_stepping = 0.0;
   std::array<double, phase_names.size()> phases{};
   std::int64_t restarts = 0;
+  std::vector<double> audit;  ///< ForceAudit::numbers()
 };
 
 /// What a recorder has to know to go on.
