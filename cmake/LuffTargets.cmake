@@ -7,6 +7,7 @@ if(LUFF_NATIVE)
 endif()
 if(LUFF_SANITIZE)
   target_compile_options(luff_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_compile_definitions(luff_flags INTERFACE _GLIBCXX_ASSERTIONS)
   target_link_options(luff_flags INTERFACE -fsanitize=address,undefined)
 endif()
 

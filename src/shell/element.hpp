@@ -25,6 +25,8 @@ struct Element {
   Eigen::Matrix<double, 3, max_nodes> H;  ///< curvature weights [1/L^2], row V = 11, 22, 2.12
   Eigen::Matrix<double, 2, 3> gradient;   ///< of the area coordinates [1/L]
   int smoothed = -1;                      ///< index of a SmoothedMembrane, or -1: constant membrane strain
+  Mat3 turning;                           ///< column k: 2/h_k m_k (x) m_k, curvature by the turn over edge k [1/L]
+  Mat3 turns;                             ///< its inverse [L]
   Vec3 kappa_0;                           ///< curvature of the reference [1/L]
   double area = 0;                        ///< of the reference [L^2]
   Fibre fibre = Fibre::UnitX();           ///< direction of the material in the frame of the triangle
@@ -40,7 +42,8 @@ struct ElementKinematics {
   Mat3 G;                         ///< column i: current gradient of area coordinate i, n x d_i / (2 A_c)
   Eigen::Matrix<double, 3, 2> F;  ///< sum_i x_i (x) g_i
   Mat3 a;                         ///< column V: sum_i H_V^i y_i
-  Vec3 kappa;                     ///< n . a_V
+  Vec3 sines;                     ///< sigma_k, half the sine of the turn over edge k that n . a_V means
+  Vec3 kappa;                     ///< that of the turns themselves
   Vec3 E_membrane;                ///< (F'F - I)/2 in Voigt order with engineering shear
   Vec3 E_bending;                 ///< -(kappa - kappa_0)
 };
@@ -80,7 +83,8 @@ inline Mat3 geometric_membrane(const Eigen::Matrix<double, 2, 3>& gradient, cons
 
 ElementKinematics kinematics(const Element& element, const NodePositions& y);
 
-/// rho_i^V = H_V^i - [i<3] a_V . G_i, so that the variation of kappa_V is sum_i rho_i^V n . (variation of y_i).
+/// rho_i^V, so that the variation of kappa_V is sum_i rho_i^V n . (variation of y_i): d kappa/d(n . a) times
+/// H_V^i - [i<3] a_V . G_i.
 Eigen::Matrix<double, 3, max_nodes> curvature_derivative(const Element& element, const ElementKinematics& k);
 
 /// Forces that resultants per area of the reference make at the nodes, A (B^m' N + B^b' M).

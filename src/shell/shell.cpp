@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
 
 #include "core/error.hpp"
 #include "shell/fibres.hpp"
+#include "shell/patch_quadratic.hpp"
 #include "surface/validation.hpp"
 
 namespace luff::shell {
@@ -29,6 +30,15 @@ Eigen::Matrix<double, 2, 3> area_coordinate_gradients(const Vec3& a, const Vec3&
     gradient.col(i) << e1.dot(g), e2.dot(g);
   }
   return gradient;
+}
+
+/// Column k: 2/h_k m_k (x) m_k = 2 h_k g_k (x) g_k in Voigt order.
+Mat3 curvatures_of_turns(const Eigen::Matrix<double, 2, 3>& gradient)
+{
+  Mat3 turning;
+  for (int k = 0; k < 3; ++k)
+    turning.col(k) = 2 / gradient.col(k).norm() * dyad(gradient.col(k));
+  return turning;
 }
 
 }  // namespace
@@ -106,6 +116,8 @@ void Shell::append_elements(const Piece& piece, const surface::Topology& topolog
     const auto& corner = piece.reference.triangles[t];
     const auto& X = piece.reference.vertices;
     e.gradient = area_coordinate_gradients(X[corner[0]], X[corner[1]], X[corner[2]]);
+    e.turning = curvatures_of_turns(e.gradient);
+    e.turns = e.turning.inverse();
     e.area = surface::area(piece.reference, t);
     e.fibre = fibres[t];
     if (piece.properties.membrane == MembraneKind::Smoothed) {
