@@ -274,11 +274,14 @@ void BoundaryConditions::add_wall_stress(const View3<const double>& u, const Vie
   for (const Side& side : sides_) {
     if (!side.gradient)
       continue;
-    for_each_side_cell(side, [&](const Index3& c, std::size_t) {
-      const Vec3 change = viscosity / grid_.volume(c[0], c[1], c[2]) * side.gradient->missing_flux(u, U, c);
-      for (int d = 0; d < 3; ++d) {
-        rate[d](c) += change[d];
-        increment[d](c) += weight * change[d];
+    for_each_row(side.cells, [&](int from, int to, int j, int k) {
+      for (int i = from; i < to; ++i) {
+        const Index3 c{i, j, k};
+        const Vec3 change = viscosity / grid_.volume(i, j, k) * side.gradient->missing_flux(u, U, c);
+        for (int d = 0; d < 3; ++d) {
+          rate[d](c) += change[d];
+          increment[d](c) += weight * change[d];
+        }
       }
     });
   }

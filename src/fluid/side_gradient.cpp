@@ -10,21 +10,6 @@
 
 namespace luff::fluid {
 
-namespace {
-
-/// sum_m weight_m value(c + m), m = -2 ... 2 along an axis.
-template <class Value>
-Vec3 sum(const std::array<double, 5>& weight, int axis, const Index3& c, Value value)
-{
-  Vec3 result = Vec3::Zero();
-  for (int m = 0; m < 5; ++m)
-    if (weight[m] != 0.0)
-      result += weight[m] * value(stepped(c, axis, m - 2));
-  return result;
-}
-
-}  // namespace
-
 SideGradient::SideGradient(const grid::Grid& grid, int axis, int end, const IndexBox& cells)
     : grid_(&grid), axis_(axis), end_(end), along_{axis == 0 ? 1 : 0, axis == 2 ? 1 : 2}, cells_(cells)
 {
@@ -46,21 +31,16 @@ SideGradient::Difference SideGradient::difference(int axis, const Index3& c) con
   const bool below = goes_on || c[axis] > 0;
   const bool above = goes_on || c[axis] + 1 < n;
   if (below && above)
-    return {axis, {0.0, -0.5, 0.0, 0.5, 0.0}, {0.0, 1.0, -2.0, 1.0, 0.0}};
+    return {-1, {-0.5, 0.0, 0.5}, {1.0, -2.0, 1.0}};
   if (!below && !above)
-    return {axis, {}, {}};
+    return {};
   const IndexBox& owned = grid_->owned();
   const int third = c[axis] + (above ? 2 : -2);
   const bool three = third >= 0 && third < n && third >= owned.lo[axis] - 1 && third <= owned.hi[axis];
-  Difference d = three ? Difference{axis, {0.0, 0.0, -1.5, 2.0, -0.5}, {0.0, 0.0, 1.0, -2.0, 1.0}}
-                       : Difference{axis, {0.0, 0.0, -1.0, 1.0, 0.0}, {}};
-  if (below) {
-    std::reverse(d.weight.begin(), d.weight.end());
-    std::reverse(d.second.begin(), d.second.end());
-    for (double& w : d.weight)
-      w = -w;
-  }
-  return d;
+  if (!three)
+    return above ? Difference{0, {-1.0, 1.0, 0.0}, {}} : Difference{-2, {0.0, -1.0, 1.0}, {}};
+  return above ? Difference{0, {-1.5, 2.0, -0.5}, {1.0, -2.0, 1.0}}
+               : Difference{-2, {0.5, -2.0, 1.5}, {1.0, -2.0, 1.0}};
 }
 
 SideGradient::Face SideGradient::make_face(const Index3& c) const
@@ -85,16 +65,21 @@ SideGradient::Face SideGradient::make_face(const Index3& c) const
   }
   for (int m = 0; m < 2; ++m) {
     const int axis = along_[m];
-    const Difference d = difference(axis, c);
-    const bool alone = std::all_of(d.weight.begin(), d.weight.end(), [](double w) { return w == 0.0; });
-    const auto [i, j, k] = stepped(c, axis, 1);
-    // The only cell along an axis: what changes along it is not known, but its direction is needed.
-    tangents.col(1 + m) = alone ? Vec3(grid_->face_centre(axis, i, j, k) - grid_->face_centre(axis, c[0], c[1], c[2]))
-                                : sum(d.weight, axis, c, face_centre);
+    const Difference d = face.along[m] = difference(axis, c);
+    if (d.alone()) {  // its direction is needed all the same
+      const auto [i, j, k] = stepped(c, axis, 1);
+      tangents.col(1 + m) = grid_->face_centre(axis, i, j, k) - grid_->face_centre(axis, c[0], c[1], c[2]);
+      continue;
+    }
+    tangents.col(1 + m).setZero();
+    for (int n = 0; n < 3; ++n)
+      if (d.weight[n] != 0.0)
+        tangents.col(1 + m) += d.weight[n] * face_centre(stepped(c, axis, d.from + n));
   }
   face.reciprocal = tangents.inverse();
   const auto [i, j, k] = stepped(c, axis_, end_);
   face.outward = (end_ == 0 ? -1.0 : 1.0) * grid_->area_vector(axis_, i, j, k);
+  face.through = face.reciprocal * face.outward;
   prepare_recovery(c, face);
   return face;
 }
@@ -131,18 +116,16 @@ void SideGradient::prepare_recovery(const Index3& c, Face& face) const
 }
 
 /// delta; along the side U_b = S_b . u_b, so that r_b = S_b . d_b^2 u_b + 2 (d_b S_b) . d_b u_b.
-Vec3 SideGradient::recovery_defect(const View3<const double>& u, const View3<const double>& U, const Index3& c) const
+Vec3 SideGradient::recovery_defect(const View3<const double>& u, const View3<const double>& U, const Index3& c,
+                                   const std::array<Differences, 2>& along) const
 {
   const Face& f = face(c);
-  const auto side = [&](const Index3& cell) { return on_side(u, cell); };
   Vec3 r = Vec3::Zero();
   if (has_second_cell())
-    r[0] = U[axis_](low_face(c, 0)) - 2.0 * U[axis_](low_face(c, 1)) + U[axis_](low_face(c, 2)) - f.bend.dot(side(c));
-  for (int m = 0; m < 2; ++m) {
-    const Difference d = difference(along_[m], c);
-    r[1 + m] =
-        f.area[m].dot(sum(d.second, along_[m], c, side)) + 2.0 * f.widening[m].dot(sum(d.weight, along_[m], c, side));
-  }
+    r[0] = U[axis_](low_face(c, 0)) - 2.0 * U[axis_](low_face(c, 1)) + U[axis_](low_face(c, 2)) -
+           f.bend.dot(on_side(u, c));
+  for (int m = 0; m < 2; ++m)
+    r[1 + m] = f.area[m].dot(along[m].second) + 2.0 * f.widening[m].dot(along[m].first);
   return f.recovery * r;
 }
 
@@ -152,24 +135,43 @@ Vec3 SideGradient::on_side(const View3<const double>& u, const Index3& c) const
   return 0.5 * (luff::at(u, c) + luff::at(u, inwards(c, -1)));
 }
 
-/// Columns D_s u, D_1 u_b, D_2 u_b.
-Mat3 SideGradient::differences(const View3<const double>& u, const View3<const double>& U, const Index3& c) const
+std::array<SideGradient::Differences, 2> SideGradient::along_side(const View3<const double>& u, const Index3& c) const
+{
+  std::array<Differences, 2> all;
+  for (int m = 0; m < 2; ++m) {
+    const Difference& d = face(c).along[m];
+    all[m] = {Vec3::Zero(), Vec3::Zero()};
+    if (d.alone())
+      continue;
+    for (int n = 0; n < 3; ++n) {
+      if (d.weight[n] == 0.0 && d.second[n] == 0.0)
+        continue;
+      const Vec3 u_b = on_side(u, stepped(c, along_[m], d.from + n));
+      all[m].first += d.weight[n] * u_b;
+      all[m].second += d.second[n] * u_b;
+    }
+  }
+  return all;
+}
+
+/// D_s u.
+Vec3 SideGradient::derivative_inwards(const View3<const double>& u, const View3<const double>& U, const Index3& c,
+                                      const std::array<Differences, 2>& along) const
 {
   const WallDerivative& normal = face(c).normal;
-  const Vec3 u_b = on_side(u, c) + recovery_defect(u, U, c);
-  Mat3 D;
-  D.col(0) = normal.near * (luff::at(u, c) - u_b);
+  const Vec3 u_b = on_side(u, c) + recovery_defect(u, U, c, along);
+  Vec3 derivative = normal.near * (luff::at(u, c) - u_b);
   if (normal.far != 0.0)
-    D.col(0) += normal.far * (luff::at(u, inwards(c, 1)) - u_b);
-  for (int m = 0; m < 2; ++m)
-    D.col(1 + m) =
-        sum(difference(along_[m], c).weight, along_[m], c, [&](const Index3& cell) { return on_side(u, cell); });
-  return D;
+    derivative += normal.far * (luff::at(u, inwards(c, 1)) - u_b);
+  return derivative;
 }
 
 Mat3 SideGradient::at(const View3<const double>& u, const View3<const double>& U, const Index3& c) const
 {
-  return differences(u, U, c) * face(c).reciprocal;
+  const std::array<Differences, 2> along = along_side(u, c);
+  Mat3 D;
+  D << derivative_inwards(u, U, c, along), along[0].first, along[1].first;
+  return D * face(c).reciprocal;
 }
 
 double SideGradient::extrapolated(const View<const double>& p, const Index3& c) const
@@ -180,7 +182,10 @@ double SideGradient::extrapolated(const View<const double>& p, const Index3& c) 
 
 Vec3 SideGradient::missing_flux(const View3<const double>& u, const View3<const double>& U, const Index3& c) const
 {
-  return at(u, U, c) * face(c).outward - mirrored_flux(u, c);
+  const std::array<Differences, 2> along = along_side(u, c);
+  const Vec3& through = face(c).through;
+  return through[0] * derivative_inwards(u, U, c, along) + through[1] * along[0].first + through[2] * along[1].first -
+         mirrored_flux(u, c);
 }
 
 /// A (u_N - u_P)/d; on curvilinear grids G_aa (u_N - u_P) + sum_b G_ab <d_b>, positive along increasing index, with the

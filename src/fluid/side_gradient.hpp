@@ -53,17 +53,26 @@ class SideGradient {
   [[nodiscard]] Vec3 missing_flux(const View3<const double>& u, const View3<const double>& U, const Index3& c) const;
 
  private:
-  /// A difference between faces along one index direction.
+  /// A difference between three faces in a row along one index direction.
   struct Difference {
-    int axis = 0;
-    std::array<double, 5> weight{};  ///< of the faces -2 ... 2 steps away
-    std::array<double, 5> second{};  ///< of the second difference
+    int from = 0;                    ///< steps to the first of them
+    std::array<double, 3> weight{};  ///< of the first difference
+    std::array<double, 3> second{};  ///< of the second
+    /// Nothing is known of what changes along the only cell of an axis.
+    [[nodiscard]] bool alone() const { return weight == std::array<double, 3>{}; }
+  };
+  /// D_m u_b and d_m^2 u_b along one index direction.
+  struct Differences {
+    Vec3 first;
+    Vec3 second;
   };
   struct Face {
     WallDerivative normal;
+    std::array<Difference, 2> along;
     double beyond = 0.0;           ///< distance of the face from the cell beside it over that to the next one
     Mat3 reciprocal;               ///< rows: what D_s, D_1, D_2 are multiplied with
     Vec3 outward;                  ///< area vector out of the domain
+    Vec3 through;                  ///< reciprocal times outward: what D_s, D_1, D_2 add to the flux
     Mat3 recovery;                 ///< S_c^-1/8, columns: the side's axis and the two along it
     Vec3 bend = Vec3::Zero();      ///< d_a^2 S_a of the side's axis
     std::array<Vec3, 2> area;      ///< S_b of the two directions along the side
@@ -74,11 +83,14 @@ class SideGradient {
   [[nodiscard]] Difference difference(int axis, const Index3& c) const;
   [[nodiscard]] Face make_face(const Index3& c) const;
   [[nodiscard]] Vec3 on_side(const View3<const double>& u, const Index3& c) const;
-  [[nodiscard]] Mat3 differences(const View3<const double>& u, const View3<const double>& U, const Index3& c) const;
+  [[nodiscard]] std::array<Differences, 2> along_side(const View3<const double>& u, const Index3& c) const;
+  [[nodiscard]] Vec3 derivative_inwards(const View3<const double>& u, const View3<const double>& U, const Index3& c,
+                                        const std::array<Differences, 2>& along) const;
   [[nodiscard]] bool has_second_cell() const;
   [[nodiscard]] Index3 low_face(const Index3& c, int inwards) const;
   void prepare_recovery(const Index3& c, Face& face) const;
-  [[nodiscard]] Vec3 recovery_defect(const View3<const double>& u, const View3<const double>& U, const Index3& c) const;
+  [[nodiscard]] Vec3 recovery_defect(const View3<const double>& u, const View3<const double>& U, const Index3& c,
+                                     const std::array<Differences, 2>& along) const;
   [[nodiscard]] Vec3 mirrored_flux(const View3<const double>& u, const Index3& c) const;
 
   const grid::Grid* grid_;
