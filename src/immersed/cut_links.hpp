@@ -147,6 +147,12 @@ class CutLinks {
   [[nodiscard]] Vec3 velocity_at(const SurfacePoint& point, const StageTime& time) const;
   /// Velocity of the body that an inside cell lies in, at a place.
   [[nodiscard]] Vec3 body_velocity(int body, const Vec3& x, const StageTime& time) const;
+  /// Angular velocity, in the current iterate, of the closed body that a triangle bounds; zero of other sheets [1/T].
+  [[nodiscard]] Vec3 spin_at(int triangle) const
+  {
+    const int body = body_of(triangle);
+    return body < 0 ? Vec3(Vec3::Zero()) : body_velocity_[body].spin;
+  }
   /// U_f = A (u_b . e + eps exp(-c dt/tau)), into the fluxes of every cut face; U_f = A u_b . e between cells inside.
   void impose_fluxes(const StageTime& time, const View3<double>& U) const;
 

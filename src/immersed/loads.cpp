@@ -3,6 +3,7 @@
 
 #include "immersed/cell_metric.hpp"
 #include "immersed/cut_axis.hpp"
+#include "immersed/cut_cells.hpp"
 #include "parallel/vector_field.hpp"
 #include "surface/mesh.hpp"
 
@@ -53,14 +54,24 @@ Vec3 wall_shear(const grid::Grid& grid, const CutLinks& links, const LoadFields&
   return shear + (side == 1 ? -1.0 : 1.0) * fields.viscosity * cross;
 }
 
+/// The part of the viscous traction on a body that comes from its turning: -mu spin x n, n out of the body.  On both
+/// sides of a sheet together it is zero.
+Vec3 turning_shear(const CutLinks& links, const LoadFields& fields, int triangle, const Vec3& n)
+{
+  return -fields.density * fields.viscosity * links.spin_at(triangle).cross(n);
+}
+
 HitTraction one_sided(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const HitView& view)
 {
   const CutAxis along = cut_axis(grid, links, view.cut, view.axis);
+  const Vec3 out =
+      (view.side == 1 ? -1.0 : 1.0) * face_normal(grid, view.axis, stepped(view.cut.cell, view.axis, view.side));
   const double p_here = fields.p(view.cut.cell);
   const double slope = view.open_behind() ? (p_here - fields.p(view.behind())) / along.distance[1 - view.side]
                                           : 0.0;  // towards the sheet
   return {.pressure = fields.density * (p_here + along.theta[view.side] * along.distance[view.side] * slope),
-          .viscous = fields.density * wall_shear(grid, links, fields, view, along)};
+          .viscous = fields.density * wall_shear(grid, links, fields, view, along) +
+                     turning_shear(links, fields, links.crossings()[view.hit(links)].triangle, out)};
 }
 
 /// The side of a hit that looks into the gap between two hits of one link: mean pressure of the fluid beside it,
@@ -199,24 +210,26 @@ std::vector<SideTraction> mean_tractions(const grid::Grid& grid, std::span<const
 }
 
 /// Pressure and shear at the foot of a wall node; see node_tractions().
-HitTraction at_foot(const CutLinks& links, const WallNode& node, const Index3& cell, const LoadFields& fields)
+HitTraction at_foot(const grid::Grid& grid, const CutLinks& links, const WallNode& node, const CutCell& cut,
+                    const LoadFields& fields)
 {
-  const double p = fields.p(cell);
+  const double p = fields.p(cut.cell);
   const Vec3 u_a = links.velocity_at(node.foot, {1.0, SheetVelocity::Current});
-  if (node.donors == 0) {
-    const Vec3 before = links.velocity_at(node.foot, {0.0, SheetVelocity::Predicted});
-    const double acceleration = (u_a - before).dot(node.normal) / links.step_length();
-    return {.pressure = fields.density * (p + node.distance * acceleration)};
-  }
+  const Vec3 before = links.velocity_at(node.foot, {0.0, SheetVelocity::Predicted});
+  const Vec3 acceleration = (u_a - before) / links.step_length();
+  if (node.donors == 0)
+    return {.pressure = fields.density * (p + node.distance * acceleration.dot(node.normal))};
   double p_c = 0.0;
-  Vec3 slip = -u_a;
+  Vec3 u_c = Vec3::Zero();
   for (int k = 0; k < node.donors; ++k) {
     p_c += node.weight[k] * fields.p(node.donor[k]);
-    slip += node.weight[k] * at(fields.u, node.donor[k]);
+    u_c += node.weight[k] * at(fields.u, node.donor[k]);
   }
-  slip -= slip.dot(node.normal) * node.normal;
+  const Vec3 curvature = pressure_gradient(grid, cut, fields.p) + acceleration;  // times nu
+  Vec3 slope = fields.viscosity / node.reach * (u_c - u_a) - 0.5 * node.reach * curvature;
+  slope -= slope.dot(node.normal) * node.normal;
   return {.pressure = fields.density * (p - node.distance / (node.reach - node.distance) * (p_c - p)),
-          .viscous = fields.density * fields.viscosity / node.reach * slip};
+          .viscous = fields.density * slope + turning_shear(links, fields, node.foot.triangle, node.normal)};
 }
 
 }  // namespace
@@ -266,7 +279,7 @@ std::vector<SideTraction> node_tractions(const grid::Grid& grid, const CutLinks&
     const WallNode& node = nodes.nodes()[n];
     const auto& [a, b, c] = triangles[node.foot.triangle];
     const Vec3 to_node = node.foot.place + node.distance * node.normal - (x[a] + x[b] + x[c]) / 3.0;
-    const HitTraction t = at_foot(links, node, links.cells()[n].cell, fields);
+    const HitTraction t = at_foot(grid, links, node, links.cells()[n], fields);
     const double weight = 1.0 / to_node.norm();
     SideSums& sum = sums[node.foot.triangle][node.plus ? 1 : 0];
     sum.area += weight;

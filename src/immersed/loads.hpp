@@ -44,7 +44,9 @@ struct LoadFields {
 /// the distance of the sheet as there (theta clipped), W the neighbour behind.  Where the shear is the same on both
 /// sides of the cell, tau = nu (u* - u_b)/h_k; where the cell slows down or speeds up, the part of its momentum that
 /// the narrower stencil leaves out is not lost (docs/numerics/immersed.md).  On curvilinear grids lengths and areas are
-/// those of the gradient flux (cell_metric.hpp), and the cross flux through the face belongs to tau.  p_L, p_R
+/// those of the gradient flux (cell_metric.hpp), and the cross flux through the face belongs to tau.  A body that turns
+/// feels -mu spin x n besides: its own velocity changes along the surface, so that the transposed gradient does not
+/// vanish.  That has no force in all but the moment -2 mu V spin.  p_L, p_R
 /// extrapolated linearly to the sheet from the cells of the same side. The hit's force goes to the triangle's vertices
 /// with its barycentric weights: force and moment are conserved. Collective; the same numbers on every rank.
 [[nodiscard]] SheetLoads sheet_loads(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields,
@@ -58,11 +60,12 @@ struct LoadFields {
 /// The same of the scheme "curvib", after (4.30) to (4.32) of \cite gilmanov_2015_numerical: each wall node belongs to
 /// the triangle its foot lies on, and gives it, on its side, pressure and shear along the normal,
 ///
-///   p_a = p_P - s_P (p_c - p_P)/(s_c - s_P),   tau = mu (u_c - u_a)_t/s_c;
+///   p_a = p_P - s_P (p_c - p_P)/(s_c - s_P),   tau = mu (u_c - u_a)_t/s_c - (s_c/2) (grad p + rho a)_t,
 ///
-/// a triangle's values are the means over its nodes, weighted by 1/|x_P - x_e|, x_e its centre.  Triangles without any
-/// take those around.  Between sheets, where no c is known, dp/dn = -rho a . n with the acceleration of the sheet over
-/// the step.  Collective.
+/// the slope at the wall of a parabola through u_a and u_c whose curvature is what momentum has there, nu d2u/dn2 =
+/// grad p/rho + a; a is the sheet's acceleration over the step.  Bodies that turn as above.  A triangle's values are
+/// the means over its nodes, weighted by 1/|x_P - x_e|, x_e its centre.  Triangles without any take those around.
+/// Between sheets, where no c is known, dp/dn = -rho a . n and no shear.  Collective.
 [[nodiscard]] std::vector<SideTraction> node_tractions(const grid::Grid& grid, const CutLinks& links,
                                                        const WallNodes& nodes, const LoadFields& fields);
 

@@ -20,10 +20,17 @@ Slab slab_around_cylinder(double h, double reach, double stream, double viscosit
           .viscosity = viscosity};
 }
 
-TEST(CylinderInAStream, FeelsWhatTheFluidLosesWhileItsWakeGrows)
+class CylinderInAStream : public ::testing::TestWithParam<fluid::ImmersedScheme> {};
+class CylinderThatSwings : public ::testing::TestWithParam<fluid::ImmersedScheme> {};
+
+const auto both_schemes = ::testing::Values(fluid::ImmersedScheme::CutLink, fluid::ImmersedScheme::Curvib);
+INSTANTIATE_TEST_SUITE_P(Schemes, CylinderInAStream, both_schemes);
+INSTANTIATE_TEST_SUITE_P(Schemes, CylinderThatSwings, both_schemes);
+
+TEST_P(CylinderInAStream, FeelsWhatTheFluidLosesWhileItsWakeGrows)
 {
   const Slab slab = slab_around_cylinder(0.06, 6.0, 1.0, 1.0 / 40.0);
-  const auto flow = make_flow(slab);
+  const auto flow = make_flow(slab, MPI_COMM_WORLD, {.immersed = GetParam(), .viscosity = slab.viscosity});
   const SlabCylinder cylinder{.centre = {0.003, 0.007, 0.0}};
   ControlVolume volume(*flow, cylinder.centre, 1.0);
   for (int n = 0; n < 200; ++n) {
@@ -38,11 +45,11 @@ TEST(CylinderInAStream, FeelsWhatTheFluidLosesWhileItsWakeGrows)
   EXPECT_LE(flow->largest_divergence, 1e-13);
 }
 
-TEST(CylinderThatSwings, FeelsWhatTheFluidLosesWithoutTheFluidThatIsNotInside)
+TEST_P(CylinderThatSwings, FeelsWhatTheFluidLosesWithoutTheFluidThatIsNotInside)
 {
   // KC = 5, Re = 100, half a period.  The box's momentum holds that of the cells inside, which move with the cylinder.
   const Slab slab = slab_around_cylinder(0.06, 6.0, 0.0, 0.01);
-  const auto flow = make_flow(slab);
+  const auto flow = make_flow(slab, MPI_COMM_WORLD, {.immersed = GetParam(), .viscosity = slab.viscosity});
   const double frequency = 2.0 * std::numbers::pi / 5.0;
   const double amplitude = 1.0 / frequency;
   const auto at = [&](double t) {

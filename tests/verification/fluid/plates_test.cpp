@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/control_volume.hpp"
+#include "support/plate_history.hpp"
 #include "support/plates.hpp"
 
 namespace luff::test {
@@ -106,61 +107,6 @@ TEST(ParallelPlate, HasTheDragOfTripleDeckTheory)
             << theory << '\n';
   EXPECT_NEAR(drag, theory, 0.02 * theory);
   EXPECT_NEAR(traction[0], theory, 0.04 * theory);
-}
-
-/// Force on a plate at 70 degrees, Re = 100, h = L/25, over time.
-struct History {
-  double dt = 0.0;
-  std::vector<Vec3> force;
-
-  /// The part after the start-up.
-  [[nodiscard]] std::size_t settled() const { return static_cast<std::size_t>(std::lround(0.8 / dt)); }
-  [[nodiscard]] Vec3 mean() const
-  {
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t n = settled(); n < force.size(); ++n)
-      sum += force[n];
-    return sum / static_cast<double>(force.size() - settled());
-  }
-};
-
-/// Through still fluid (stream 0) or fixed in a stream, the same motion of one against the other.
-History history_of_plate(double stream, double dt, const Vec3& centre)
-{
-  const double h = 0.04;
-  const Slab slab{.x = {-5.0, 4.0, 100 + 32, grid::Refinement{-2.8, 1.2, h}},
-                  .y = {-3.0, 3.0, 40 + 34, grid::Refinement{-0.8, 0.8, h}},
-                  .depth = h,
-                  .stream = stream,
-                  .viscosity = 0.01};
-  const Plate plate{.degrees = 70.0, .centre = centre, .velocity = {stream - 1.0, 0.0, 0.0}};
-  const auto flow = make_flow(slab);
-  History history{.dt = dt, .force = {}};
-  for (int n = 0; n < std::lround(2.0 / dt); ++n) {
-    flow->step(dt, plate.at(flow->t + dt, slab.depth));
-    history.force.push_back(coefficients(total_force(flow->solver.loads()), slab.depth));
-    flow->solver.accept();
-  }
-  return history;
-}
-
-/// Root mean square of what a running cubic fit over `window` leaves of the force along x.
-double noise(const History& history, double window)
-{
-  const int m = static_cast<int>(std::lround(0.5 * window / history.dt));
-  double square = 0.0;
-  int count = 0;
-  // The cubic's value in the middle of the window: weights of Savitzky and Golay.
-  const double w0 = (3.0 * m * (m + 1.0) - 1.0) * 3.0;
-  const double scale = (2.0 * m + 1.0) * (4.0 * m * (m + 1.0) - 3.0);
-  for (std::size_t n = history.settled() + m; n + m < history.force.size(); ++n) {
-    double smooth = 0.0;
-    for (int k = -m; k <= m; ++k)
-      smooth += (w0 - 15.0 * k * k) / scale * history.force[n + k][0];
-    square += std::pow(history.force[n][0] - smooth, 2);
-    ++count;
-  }
-  return std::sqrt(square / count);
 }
 
 TEST(MovingPlate, FeelsTheForceOfTheSamePlateFixedInAStreamWithLittleNoiseAtAnyStep)
