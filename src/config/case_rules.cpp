@@ -115,9 +115,12 @@ void state_case_rules(Schema& s, const Case& options)
               (options.structure.analysis == Analysis::Dynamic || options.structure.analysis == Analysis::Static)),
          "structure.solver", "must be \"direct\" for modes, on paths with unstable equilibria, and with damping");
   s.rule(flows || options.contact || options.bodies.empty(), "body", "must be left out without a [fluid] or [contact]");
-  s.rule(!flows || !is_curvilinear(options.grid.kind) || (options.shells.empty() && options.bodies.empty()),
-         "grid.kind", "must be \"box\" with shells or bodies in this version");
   s.rule(flows || !options.output.fields, "output.fields", "must be left out without a [fluid]");
+  const auto& sides = options.boundary.sides;
+  const bool has_wall =
+      std::any_of(sides.begin(), sides.end(), [](const auto& side) { return side.type == SideType::Wall; });
+  s.rule((flows && has_wall) || !options.output.walls, "output.walls",
+         "must be left out without a side of type \"wall\": bodies have their stresses in output.shells");
   s.rule(options.structure.analysis == Analysis::Dynamic || !options.output.checkpoint, "output.checkpoint",
          "must be left out unless `structure.analysis = \"dynamic\"`");
   state_names_rule(s, options);

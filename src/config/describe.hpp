@@ -58,6 +58,7 @@ void describe(Schema& s, CouplingOptions& coupling);
 void describe(Schema& s, OutputOptions& output);
 void describe(Schema& s, FieldOutputOptions& fields);
 void describe(Schema& s, ShellOutputOptions& shells);
+void describe(Schema& s, WallOutputOptions& walls);
 void describe(Schema& s, CheckpointOutputOptions& checkpoint);
 void describe(Schema& s, ProbeOptions& probe);
 

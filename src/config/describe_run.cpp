@@ -164,6 +164,8 @@ void describe(Schema& s, OutputOptions& output)
   s.table("shells", output.shells,
           {.doc = "Shells and bodies, for ParaView: displacement, velocity, traction and shear on each side. Absent: "
                   "not written."});
+  s.table("walls", output.walls,
+          {.doc = "Sides of type `wall`, for ParaView: shear stress and pressure by face. Absent: not written."});
   s.table("checkpoint", output.checkpoint,
           {.doc = "Everything that the run can go on from, with `luff run CASE --restart RUN`; the last two are kept. "
                   "Absent: only when a run is stopped or fails. Motion in time only."});
@@ -184,6 +186,11 @@ void describe(Schema& s, FieldOutputOptions& fields)
 void describe(Schema& s, ShellOutputOptions& shells)
 {
   s.key("every", shells.every, {.doc = "Time between two files.", .unit = "s", .range = positive, .required = true});
+}
+
+void describe(Schema& s, WallOutputOptions& walls)
+{
+  s.key("every", walls.every, {.doc = "Time between two files.", .unit = "s", .range = positive, .required = true});
 }
 
 void describe(Schema& s, CheckpointOutputOptions& checkpoint)

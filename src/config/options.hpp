@@ -430,6 +430,12 @@ struct ShellOutputOptions {
   bool operator==(const ShellOutputOptions&) const = default;
 };
 
+struct WallOutputOptions {
+  double every = 0.0;
+
+  bool operator==(const WallOutputOptions&) const = default;
+};
+
 struct CheckpointOutputOptions {
   double every = 0.0;
 
@@ -449,6 +455,7 @@ struct ProbeOptions {
 struct OutputOptions {
   std::optional<FieldOutputOptions> fields;           ///< none: not written
   std::optional<ShellOutputOptions> shells;           ///< none: not written
+  std::optional<WallOutputOptions> walls;             ///< none: not written
   std::optional<CheckpointOutputOptions> checkpoint;  ///< none: only when the run is stopped or fails
   int audit = 10;                                     ///< steps between audits of forces; 0: none
   bool plots = false;                                 ///< make the pictures of `luff plot` when the run ends

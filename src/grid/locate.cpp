@@ -6,6 +6,8 @@
 
 #include <Eigen/LU>
 
+#include "core/error.hpp"
+
 namespace luff::grid {
 
 namespace {
@@ -176,6 +178,79 @@ std::optional<Location> locate_in_curvilinear(const Grid& grid, const Curvilinea
   return owner == grid.ranks().rank() ? among_centres(grid, *held, x) : Location{};
 }
 
+// ---- many points ------------------------------------------------------------------------------------------------
+
+/// Points sorted into equal boxes, a few in each.
+class Bins {
+ public:
+  explicit Bins(std::span<const Vec3> points)
+  {
+    low_ = points.front();
+    Vec3 high = points.front();
+    for (const Vec3& x : points) {
+      low_ = low_.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    const double size = (high - low_).maxCoeff();
+    n_ = std::max(1, static_cast<int>(std::cbrt(double(points.size()))));
+    per_length_ = size > 0.0 ? n_ / size : 0.0;
+    bins_.resize(static_cast<std::size_t>(n_) * n_ * n_);
+    for (std::size_t p = 0; p < points.size(); ++p)
+      bins_[number(place(points[p]))].push_back(static_cast<int>(p));
+  }
+
+  /// visit(point) of every point in the boxes that the box from low to high touches.
+  template <class Visit>
+  void for_each_near(const Vec3& low, const Vec3& high, Visit visit) const
+  {
+    const Index3 from = place(low);
+    const Index3 to = place(high);
+    for (int k = from[2]; k <= to[2]; ++k)
+      for (int j = from[1]; j <= to[1]; ++j)
+        for (int i = from[0]; i <= to[0]; ++i)
+          for (const int point : bins_[number({i, j, k})])
+            visit(point);
+  }
+
+ private:
+  [[nodiscard]] Index3 place(const Vec3& x) const
+  {
+    Index3 box{};
+    for (int a = 0; a < 3; ++a)
+      box[a] = static_cast<int>(std::clamp((x[a] - low_[a]) * per_length_, 0.0, n_ - 1.0));
+    return box;
+  }
+  [[nodiscard]] std::size_t number(const Index3& box) const
+  {
+    return box[0] + n_ * (box[1] + std::size_t(n_) * box[2]);
+  }
+
+  Vec3 low_;
+  int n_ = 1;
+  double per_length_ = 0.0;
+  std::vector<std::vector<int>> bins_;
+};
+
+/// Bits of a standing: 0 inside, 1 + 2 axis + end on a side.
+using Bits = unsigned;
+
+Bits bits_in_cell(const Grid& grid, const Index3& cell, const Corners& nodes, const Vec3& x)
+{
+  if (!is_near(nodes, x))
+    return 0;
+  const auto s = invert_trilinear(nodes, x);
+  if (!s || (s->array() < -tolerance).any() || (s->array() > 1.0 + tolerance).any())
+    return 0;
+  Bits bits = 1;
+  for (int a = 0; a < 3; ++a) {
+    if (cell[a] == 0 && (*s)[a] <= tolerance)
+      bits |= 2U << 2 * a;
+    if (cell[a] + 1 == grid.cells()[a] && (*s)[a] >= 1.0 - tolerance)
+      bits |= 2U << (2 * a + 1);
+  }
+  return bits;
+}
+
 }  // namespace
 
 std::optional<Location> locate(const Grid& grid, const Vec3& x)
@@ -186,6 +261,41 @@ std::optional<Location> locate(const Grid& grid, const Vec3& x)
     else
       return locate_in_box(grid, x);
   });
+}
+
+std::vector<Standing> standings(const Grid& grid, std::span<const Vec3> points)
+{
+  std::vector<Bits> bits(points.size(), 0);
+  if (points.empty())
+    return {};
+  const Bins bins(points);
+  grid.visit([&]<class Metric>(const Metric& m) {
+    if constexpr (is_curvilinear<Metric>)
+      for_each_cell_in_order(grid.owned(), [&](int i, int j, int k) {
+        const Corners nodes = nodes_of(m, {i, j, k});
+        Vec3 low = nodes[0];
+        Vec3 high = nodes[0];
+        for (const Vec3& node : nodes) {
+          low = low.cwiseMin(node);
+          high = high.cwiseMax(node);
+        }
+        const Vec3 rounding = Vec3::Constant(tolerance * (high - low).norm());
+        bins.for_each_near(low - rounding, high + rounding, [&](int p) {
+          bits[p] |= bits_in_cell(grid, {i, j, k}, nodes, points[p]);
+        });
+      });
+    else
+      ensure(false, "boxes tell by their coordinates where a point stands");
+  });
+  MPI_Allreduce(MPI_IN_PLACE, bits.data(), static_cast<int>(bits.size()), MPI_UNSIGNED, MPI_BOR, grid.ranks().comm());
+  std::vector<Standing> result(points.size());
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    result[p].inside = (bits[p] & 1U) != 0;
+    for (int a = 0; a < 3; ++a)
+      for (int end = 0; end < 2; ++end)
+        result[p].on_side[a][end] = !grid.ranks().periodic(a) && (bits[p] >> (1 + 2 * a + end) & 1U) != 0;
+  }
+  return result;
 }
 
 }  // namespace luff::grid

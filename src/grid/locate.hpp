@@ -2,7 +2,10 @@
 // Where in a grid a point lies.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "grid/grid.hpp"
 
@@ -23,5 +26,14 @@ struct Location {
 /// The location of a point; the same rank's whenever asked.  None, on every rank, where it lies outside the grid.
 /// Collective.
 [[nodiscard]] std::optional<Location> locate(const Grid& grid, const Vec3& x);
+
+/// Where a point stands: in the grid or outside, and on which sides, [axis][end], to 1e-9 of a cell.
+struct Standing {
+  bool inside = false;
+  std::array<std::array<bool, 2>, 3> on_side{};
+};
+
+/// Of many points in a curvilinear grid, the same on every rank.  Collective.
+[[nodiscard]] std::vector<Standing> standings(const Grid& grid, std::span<const Vec3> points);
 
 }  // namespace luff::grid

@@ -51,7 +51,7 @@ class FlowSeries {
   TimeIndex index_;
 };
 
-/// <name>.pvd with <name>/<name>_000012.vtp: a surface with data by point and by triangle, written by the first rank.
+/// <name>.pvd with <name>/<name>_000012.vtp: a surface with data by point and by face, written by the first rank.
 class SurfaceSeries {
  public:
   SurfaceSeries(const RunFolder& folder, std::string name, const EarlierOutput* earlier = nullptr);

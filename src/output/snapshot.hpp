@@ -35,12 +35,13 @@ struct FlowSnapshot {
   std::vector<NamedField> fields;  ///< by cell of the piece, i fastest; the same names on every rank
 };
 
-/// A triangulated surface as it is now.
+/// A surface of triangles and quadrilaterals as it is now.
 struct SurfaceSnapshot {
   std::vector<Vec3> points;  ///< current position [L]
   std::vector<std::array<int, 3>> triangles;
+  std::vector<std::array<int, 4>> quadrilaterals{};
   std::vector<NamedField> point_fields;
-  std::vector<NamedField> triangle_fields;
+  std::vector<NamedField> face_fields;  ///< by triangle, then by quadrilateral
 };
 
 }  // namespace luff::output

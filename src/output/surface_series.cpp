@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangulated surfaces with data by point and by triangle.
+// Surfaces with data by point and by face.
 #include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -25,11 +25,13 @@ vtkSmartPointer<vtkPoints> vtk_points(const std::vector<Vec3>& positions)
   return points;
 }
 
-vtkSmartPointer<vtkCellArray> vtk_triangles(const std::vector<std::array<int, 3>>& triangles)
+vtkSmartPointer<vtkCellArray> vtk_faces(const SurfaceSnapshot& snapshot)
 {
   auto cells = vtkSmartPointer<vtkCellArray>::New();
-  for (const auto& [a, b, c] : triangles)
+  for (const auto& [a, b, c] : snapshot.triangles)
     cells->InsertNextCell({a, b, c});
+  for (const auto& [a, b, c, d] : snapshot.quadrilaterals)
+    cells->InsertNextCell({a, b, c, d});
   return cells;
 }
 
@@ -37,9 +39,9 @@ vtkSmartPointer<vtkPolyData> vtk_surface(const SurfaceSnapshot& snapshot, double
 {
   auto surface = vtkSmartPointer<vtkPolyData>::New();
   surface->SetPoints(vtk_points(snapshot.points));
-  surface->SetPolys(vtk_triangles(snapshot.triangles));
+  surface->SetPolys(vtk_faces(snapshot));
   add_fields(*surface->GetPointData(), snapshot.point_fields, snapshot.points.size());
-  add_fields(*surface->GetCellData(), snapshot.triangle_fields, snapshot.triangles.size());
+  add_fields(*surface->GetCellData(), snapshot.face_fields, snapshot.triangles.size() + snapshot.quadrilaterals.size());
   set_time(*surface, time);
   return surface;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/build_body.hpp"
 
+#include <algorithm>
 #include <numbers>
 #include <numeric>
 
@@ -42,9 +43,34 @@ bool lies_on_a_side(const config::Case& all, const Vec3& a, const Vec3& b, Touch
   return found;
 }
 
+/// In a curvilinear grid: the axis that the planes through all edges are normal to, as if they were sides of a box,
+/// both of them.  Whether sides of the grid lie there turns out when the grid is made (check_sheets_inside).
+Touched planes_of_edges(const surface::TriangleMesh& mesh, const std::string& owner)
+{
+  const std::vector<surface::TriangleEdge> edges = surface::topology(mesh).boundary;
+  Touched touched{};
+  if (edges.empty())
+    return touched;
+  const double rounding = 1e-9 * surface::bounding_box(mesh.vertices).size();
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::all_of(edges.begin(), edges.end(), [&](const surface::TriangleEdge& edge) {
+          const auto [a, b] = surface::edge_vertices(mesh.triangles[edge.triangle], edge.edge);
+          return std::abs(mesh.vertices[a][axis] - mesh.vertices[b][axis]) <= rounding;
+        })) {
+      touched[axis] = {true, true};
+      return touched;
+    }
+  fail_input(
+      "{}: declared closed, but its edges don't lie in planes normal to x, y or z; close the mesh (edges may lie on "
+      "plane symmetry and slip sides of the grid), or leave `closed` out",
+      owner);
+}
+
 /// The sides that the mesh's edges lie on.  Throws InputError when some lie on none.
 Touched sides_of_edges(const surface::TriangleMesh& mesh, const config::Case& all, const std::string& owner)
 {
+  if (all.fluid && config::is_curvilinear(all.grid.kind))
+    return planes_of_edges(mesh, owner);
   Touched touched{};
   int leaks = 0;
   std::string examples;

@@ -38,10 +38,12 @@ std::unique_ptr<Simulation> build_simulation(MPI_Comm comm, const config::Case& 
 {
   auto structure = build_structure(options);
   check_sheets_inside(options, *structure);
-  return std::make_unique<Simulation>(Clock(options.time.end, options.time.step, options.time.cfl),
-                                      build_surroundings(comm, options), std::move(structure),
-                                      coupling::make_acceleration(build_acceleration(options.coupling)),
-                                      build_policy(options.coupling));
+  auto surroundings = build_surroundings(comm, options);
+  if (auto* flow = surroundings->flow())
+    check_sheets_inside(flow->grid(), options, *structure);
+  return std::make_unique<Simulation>(
+      Clock(options.time.end, options.time.step, options.time.cfl), std::move(surroundings), std::move(structure),
+      coupling::make_acceleration(build_acceleration(options.coupling)), build_policy(options.coupling));
 }
 
 }  // namespace luff::simulation

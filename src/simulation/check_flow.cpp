@@ -13,6 +13,7 @@
 #include "grid/locate.hpp"
 #include "simulation/build.hpp"
 #include "simulation/refusal.hpp"
+#include "surface/topology.hpp"
 
 namespace luff::simulation {
 
@@ -43,6 +44,46 @@ void check_sheet_inside(const config::Case& options, const SheetRange& sheet, st
             inside < -rounding ? "lies beyond" : "touches", config::side_names[2 * a + end], "xyz"[a],
             end == 0 ? axis.from : axis.to);
       }
+}
+
+/// The first side that a point stands on and that `wanted` says of.
+std::optional<std::string> side_under(const grid::Standing& standing, const config::BoundaryOptions& boundary,
+                                      const std::function<bool(config::SideType)>& wanted)
+{
+  for (int a = 0; a < 3; ++a)
+    for (int end = 0; end < 2; ++end)
+      if (standing.on_side[a][end] && wanted(boundary.sides[2 * a + end].type))
+        return std::string(boundary.names()[2 * a + end]);
+  return std::nullopt;
+}
+
+void check_sheet_in_grid(const config::Case& options, const SheetRange& sheet, std::span<const Vec3> positions,
+                         std::span<const grid::Standing> standings)
+{
+  const std::string owner = fmt::format("{} '{}'", sheet.deforms ? "shell" : "body", sheet.name);
+  for (int v = 0; v < sheet.vertices; ++v) {
+    const auto touched =
+        side_under(standings[v], options.boundary, [](config::SideType type) { return !sheets_may_end_on(type); });
+    if (standings[v].inside && !touched)
+      continue;
+    const Vec3& x = positions[v];
+    fail_input(
+        "{}: vertex {} at ({:.6g}, {:.6g}, {:.6g}) {}; move the sheet, or let the grid reach further (sheets may end "
+        "on symmetry, slip and periodic sides only; one that is to close off a part of the fluid ends less than half a "
+        "cell from a wall)",
+        owner, v, x[0], x[1], x[2], touched ? "touches side " + *touched : "lies outside the grid");
+  }
+  if (sheet.deforms || !options.bodies[sheet.part].closed.value_or(false))
+    return;
+  for (const surface::TriangleEdge& edge : surface::topology(sheet.reference).boundary) {
+    const auto [a, b] = surface::edge_vertices(sheet.reference.triangles[edge.triangle], edge.edge);
+    for (const int v : {a, b})
+      if (!side_under(standings[v], options.boundary, sheets_may_end_on))
+        fail_input(
+            "{}: declared closed, but it leaks through an edge at ({:.6g}, {:.6g}, {:.6g}) that has a triangle on one "
+            "side only and lies on no side of the grid that sheets may end on; close the mesh, or leave `closed` out",
+            owner, positions[v][0], positions[v][1], positions[v][2]);
+  }
 }
 
 /// One number, or the three of a vector, somewhere at t = 0.
@@ -143,13 +184,28 @@ void check_probes(const grid::Grid& grid, const config::OutputOptions& output)
 
 void check_sheets_inside(const config::Case& options, const Structure& structure)
 {
-  if (!options.fluid)
+  if (!options.fluid || config::is_curvilinear(options.grid.kind))
     return;
   const std::vector<Vec3> positions = structure.accepted_positions(0.0);
   for (const SheetRange& sheet : structure.sheets()) {
     const config::MeshOptions& mesh = sheet.deforms ? options.shells[sheet.part].mesh : options.bodies[sheet.part].mesh;
     refusing_at(mesh.mark, [&] {
       check_sheet_inside(options, sheet, std::span(positions).subspan(sheet.first_vertex, sheet.vertices));
+    });
+  }
+}
+
+void check_sheets_inside(const grid::Grid& grid, const config::Case& options, const Structure& structure)
+{
+  if (grid.kind() != grid::Kind::Curvilinear)
+    return;
+  const std::vector<Vec3> positions = structure.accepted_positions(0.0);
+  const std::vector<grid::Standing> standings = grid::standings(grid, positions);
+  for (const SheetRange& sheet : structure.sheets()) {
+    const config::MeshOptions& mesh = sheet.deforms ? options.shells[sheet.part].mesh : options.bodies[sheet.part].mesh;
+    refusing_at(mesh.mark, [&] {
+      check_sheet_in_grid(options, sheet, std::span(positions).subspan(sheet.first_vertex, sheet.vertices),
+                          std::span(standings).subspan(sheet.first_vertex, sheet.vertices));
     });
   }
 }

@@ -215,8 +215,10 @@ void check_case(MPI_Comm comm, const std::filesystem::path& file, const config::
   const auto structure = build_structure(options);
   check_sheets_inside(options, *structure);
   const auto grid = options.fluid ? build_grid(comm, options) : nullptr;
-  if (grid)
+  if (grid) {
+    check_sheets_inside(*grid, options, *structure);
     check_flow(*grid, options);
+  }
   if (!marches(options))
     (void)build_still(options);
   const std::vector<std::string> groups = describe_groups(options, *structure, grid.get());
@@ -237,6 +239,8 @@ void write_meshes(MPI_Comm comm, const std::filesystem::path& file, const config
   const auto structure = build_structure(options);
   check_sheets_inside(options, *structure);
   const auto grid = options.fluid ? build_grid(comm, options) : nullptr;
+  if (grid)
+    check_sheets_inside(*grid, options, *structure);
   const output::RunFolder folder = output::RunFolder::at(comm, out);
   if (grid)
     output::FlowSeries(folder, "grid").write(0.0, quality_snapshot(*grid));

@@ -30,12 +30,12 @@ void add_marks(const SheetRange& sheet, output::SurfaceSnapshot& snapshot)
   for (const auto& [name, members] : sets_at_vertices(sheet.marks.sets))
     snapshot.point_fields.push_back(ones_at(name, members, sheet.vertices));
   for (const auto& [name, members] : sheet.marks.sets.triangles)
-    snapshot.triangle_fields.push_back(ones_at(name, members, sheet.triangles));
+    snapshot.face_fields.push_back(ones_at(name, members, sheet.triangles));
   for (const auto& [name, directions] : sheet.marks.directions) {
     std::vector<double> values;
     for (const Vec3& direction : directions)
       values.insert(values.end(), direction.begin(), direction.end());
-    snapshot.triangle_fields.push_back({name, 3, std::move(values)});
+    snapshot.face_fields.push_back({name, 3, std::move(values)});
   }
 }
 

@@ -13,6 +13,7 @@
 #include "output/summary.hpp"
 #include "parallel/agreement.hpp"
 #include "simulation/flow_fields.hpp"
+#include "simulation/wall_surface.hpp"
 #include "surface/selection.hpp"
 
 namespace luff::simulation {
@@ -85,6 +86,7 @@ Recorder::Recorder(const output::RunFolder& folder, std::shared_ptr<spdlog::logg
                     options.fluid ? double(simulation.surroundings().flow()->grid().ranks().domain().volume()) : 0.0)),
       fields_due_(options.output.fields ? std::optional(options.output.fields->every) : std::nullopt),
       shells_due_(options.output.shells ? std::optional(options.output.shells->every) : std::nullopt),
+      walls_due_(options.output.walls ? std::optional(options.output.walls->every) : std::nullopt),
       checkpoint_due_(options.output.checkpoint ? std::optional(options.output.checkpoint->every) : std::nullopt)
 {
   const output::EarlierOutput* before = earlier != nullptr ? &earlier->output : nullptr;
@@ -118,6 +120,7 @@ void Recorder::resume(const Record& earlier)
   fields_due_.resume(simulation_.clock().now(), latest("fields"));
   shells_due_.resume(simulation_.clock().now(),
                      surfaces_.empty() ? std::nullopt : latest(surfaces_.front().mark().name));
+  walls_due_.resume(simulation_.clock().now(), latest("walls"));
   for (const output::CsvWriter* table : tables())
     if (!table->whole())
       log_->warn(
@@ -132,6 +135,8 @@ void Recorder::open_tables(const output::EarlierOutput* earlier)
     fields_.emplace(folder_, "fields", earlier);
   if (options_.fluid && options_.output.audit > 0 && !simulation_.structure().sheets().empty())
     open_audit(earlier);
+  if (options_.output.walls)
+    walls_.emplace(folder_, "walls", earlier);
   for (const SheetRange& sheet : simulation_.structure().sheets()) {
     surfaces_.emplace_back(folder_, (sheet.deforms ? "shell-" : "body-") + sheet.name, earlier);
     if (options_.fluid)
@@ -455,6 +460,11 @@ void Recorder::write_snapshots(double t, double dt, bool last)
     flow->fill_halos();
     fields_->write(t, flow_snapshot(*flow, options_.output.fields->what, simulation_.structure().has_closed_bodies()));
   }
+  if (walls_ && walls_due_.due(t, last)) {
+    auto* flow = simulation_.surroundings().flow();
+    flow->fill_halos();
+    walls_->write(t, wall_snapshot(*flow, folder_.comm()));
+  }
   if (options_.output.shells && shells_due_.due(t, last)) {
     write_shells(t, dt);
     count_crossings();
@@ -500,8 +510,8 @@ output::SurfaceSnapshot Recorder::sheet_snapshot(const SheetRange& sheet, double
       for (int d = 0; d < 3; ++d)
         shear[3 * e + d] = traction.shear[side][d];
     }
-    snapshot.triangle_fields.push_back({"pressure" + suffix, 1, std::move(pressure)});
-    snapshot.triangle_fields.push_back({"shear" + suffix, 3, std::move(shear)});
+    snapshot.face_fields.push_back({"pressure" + suffix, 1, std::move(pressure)});
+    snapshot.face_fields.push_back({"shear" + suffix, 3, std::move(shear)});
   }
   return snapshot;
 }
@@ -572,6 +582,8 @@ std::vector<const output::SeriesMark*> Recorder::series() const
   std::vector<const output::SeriesMark*> all;
   if (fields_)
     all.push_back(&fields_->mark());
+  if (walls_)
+    all.push_back(&walls_->mark());
   for (const output::SurfaceSeries& surface : surfaces_)
     all.push_back(&surface.mark());
   return all;

@@ -89,8 +89,10 @@ class Recorder {
   output::Progress progress_;
   Cadence fields_due_;
   Cadence shells_due_;
+  Cadence walls_due_;
   Cadence checkpoint_due_;
   std::optional<output::FlowSeries> fields_;
+  std::optional<output::SurfaceSeries> walls_;
   std::vector<output::SurfaceSeries> surfaces_;
   std::vector<output::CsvWriter> forces_;
   std::vector<std::pair<int, output::CsvWriter>> motions_;  ///< of rigid sheets that move, by number

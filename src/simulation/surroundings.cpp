@@ -1,20 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/surroundings.hpp"
 
+#include <limits>
+
 #include "core/error.hpp"
 
 namespace luff::simulation {
 
 namespace {
 
-void require_inside(const grid::Grid& grid, const immersed::SheetMotion& sheets, const TimeStep& step)
+/// The box around the nodes of all ranks.  Collective.
+Reach reach_of(const grid::Grid& grid)
+{
+  Reach reach{Vec3::Constant(std::numeric_limits<double>::max()),
+              Vec3::Constant(std::numeric_limits<double>::lowest())};
+  for_each_cell_in_order(grid.owned().faces(0).faces(1).faces(2), [&](int i, int j, int k) {
+    reach.low = reach.low.cwiseMin(grid.node(i, j, k));
+    reach.high = reach.high.cwiseMax(grid.node(i, j, k));
+  });
+  for (int a = 0; a < 3; ++a) {
+    reach.low[a] = -grid.ranks().max(-reach.low[a]);
+    reach.high[a] = grid.ranks().max(reach.high[a]);
+  }
+  // Sheets may end on symmetry planes; a thousandth of a cell is their rounding.
+  const Vec3 slack = Vec3::Constant(1e-3 * grid.smallest_width());
+  return {reach.low - slack, reach.high + slack};
+}
+
+void require_inside(const Reach& reach, const immersed::SheetMotion& sheets, const TimeStep& step)
 {
   for (std::size_t v = 0; v < sheets.position.size(); ++v)
     for (int a = 0; a < 3; ++a) {
       const double x = sheets.position[v][a];
-      // Sheets may end on symmetry planes; a thousandth of a cell is their rounding.
-      const double slack = 1e-3 * grid.width(a, 0);
-      if (x >= grid.face(a, 0) - slack && x <= grid.face(a, grid.cells()[a]) + slack)
+      if (x >= reach.low[a] && x <= reach.high[a])
         continue;
       fail_run(
           "step {}, t = {:.6g}: vertex {} of a sheet is at ({:.4g}, {:.4g}, {:.4g}), outside the grid along {}: the "
@@ -25,9 +43,14 @@ void require_inside(const grid::Grid& grid, const immersed::SheetMotion& sheets,
 
 }  // namespace
 
+Flow::Flow(std::unique_ptr<grid::Grid> grid, std::unique_ptr<fluid::FlowSolver> solver)
+    : grid_(std::move(grid)), solver_(std::move(solver)), reach_(reach_of(*grid_))
+{
+}
+
 void Flow::begin_step(const TimeStep& step, const immersed::SheetMotion& predicted)
 {
-  require_inside(*grid_, predicted, step);
+  require_inside(reach_, predicted, step);
   report_ = {};
   solver_->begin_step(step, predicted);
   report_.momentum_iterations = solver_->newton().krylov_iterations;

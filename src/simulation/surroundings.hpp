@@ -36,13 +36,16 @@ class Surroundings {
   [[nodiscard]] virtual fluid::FlowSolver* flow() { return nullptr; }
 };
 
+/// Corners of the box around a grid.
+struct Reach {
+  Vec3 low;
+  Vec3 high;
+};
+
 class Flow : public Surroundings {
  public:
-  /// Throws RunError in begin_step() when a sheet leaves the domain.
-  Flow(std::unique_ptr<grid::Grid> grid, std::unique_ptr<fluid::FlowSolver> solver)
-      : grid_(std::move(grid)), solver_(std::move(solver))
-  {
-  }
+  /// Throws RunError in begin_step() when a sheet leaves the box around the grid.  Collective.
+  Flow(std::unique_ptr<grid::Grid> grid, std::unique_ptr<fluid::FlowSolver> solver);
   [[nodiscard]] StepRates step_rates() const override
   {
     return {solver_->convective_rate(), solver_->diffusive_rate(), fluid::step_limits(solver_->options().scheme)};
@@ -56,6 +59,7 @@ class Flow : public Surroundings {
  private:
   std::unique_ptr<grid::Grid> grid_;
   std::unique_ptr<fluid::FlowSolver> solver_;
+  Reach reach_;
   FlowReport report_;
 };
 

@@ -133,5 +133,49 @@ const BadGrid grids[] = {
 INSTANTIATE_TEST_SUITE_P(Grids, BadGridsAreRefused, testing::ValuesIn(grids),
                          [](const auto& bad) { return std::string(bad.param.name); });
 
+/// An orifice plate across the pipe of `pipe`, which ends less than half a cell from the wall.
+const std::string orifice =
+    "[[body]]\nname = \"orifice\"\nmesh = { shape = \"annulus\", centre = [0, 0, 0.9], axis = [0, 0, 1], radius = "
+    "0.48, inner_radius = 0.3, divisions = [32, 4] }\n";
+/// A ball in it, closed.
+const std::string ball =
+    "[[body]]\nname = \"ball\"\nmesh = { shape = \"sphere-cap\", centre = [0.02, 0.01, 0.9], axis = [0, 0, 1], "
+    "radius = 0.2, rings = 8, polar = { from = 0, to = 180 } }\n";
+
+TEST(BodiesInACurvilinearGrid, FeelTheFlowAlikeOnOneAndTwoRanks)
+{
+  const WorkFolder folder;
+  for (const auto& [name, body] : {std::pair("orifice", orifice), std::pair("ball", ball)}) {
+    folder.write("case.toml", flow_in(pipe) + body + "[output]\nwalls = { every = 0.1 }\n");
+    const std::string one = std::string("one-") + name;
+    const std::string two = std::string("two-") + name;
+    const Outcome run = luff(folder, {"run", "case.toml", "--out", one});
+    ASSERT_EQ(run.status, 0) << run.said;
+    ASSERT_EQ(luff_on_ranks(2, folder, {"run", "case.toml", "--out", two}).status, 0);
+    EXPECT_LT(read_summary(folder.path() / one)["max_divergence"], 1e-13);
+    const std::string table = std::string("forces-") + name + ".csv";
+    const double force = read_table(folder.path() / one / table).column("force_z [force]").back();
+    EXPECT_GT(force, 0.0) << name << " is pushed along";
+    EXPECT_NEAR(read_table(folder.path() / two / table).column("force_z [force]").back(), force, 1e-8 * force);
+    EXPECT_NE(folder.read(one + "/walls/walls_000001.vtp").find("Name=\"shear_stress\""), std::string::npos);
+  }
+}
+
+TEST(BodiesInACurvilinearGrid, AreRefusedWhereTheyLeaveItOrTouchItsWalls)
+{
+  const WorkFolder folder;
+  const auto said = [&](const std::string& from, const std::string& to) {
+    std::string text = flow_in(pipe) + orifice;
+    text.replace(text.find(from), from.size(), to);
+    folder.write("case.toml", text);
+    const Outcome check = luff(folder, {"check", "case.toml"});
+    EXPECT_EQ(check.status, 2) << check.said;
+    return check.said;
+  };
+  EXPECT_NE(said("radius = 0.48", "radius = 0.55").find("lies outside the grid"), std::string::npos);
+  EXPECT_NE(said("centre = [0, 0, 0.9]", "centre = [0, 0, 0.0]").find("touches side zeta_min"), std::string::npos);
+  EXPECT_NE(said("[[body]]\n", "[[body]]\nclosed = true\n").find("leaks through an edge"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace luff::test

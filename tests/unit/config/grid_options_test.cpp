@@ -140,15 +140,5 @@ TEST(GridOptions, RefuseAFileThatIsNotThere)
             "case.toml:9: grid.path = \"none.vts\" must be the path of a file: there is no none.vts");
 }
 
-TEST(GridOptions, RefuseShellsInGridsThatAreNoBoxes)
-{
-  const std::string body =
-      "[[body]]\nname = \"plate\"\nmesh = { shape = \"rectangle\", origin = [3, 0, -0.5], a = [0, 1, 0], b = [0, 0, "
-      "1], "
-      "divisions = [8, 4] }\n";
-  EXPECT_EQ(complaint_about(flow_in(pipe) + body),
-            "case.toml:8: grid.kind = \"pipe\" must be \"box\" with shells or bodies in this version");
-}
-
 }  // namespace
 }  // namespace luff::config

@@ -89,5 +89,30 @@ TEST(Locate, FindsThePointsOfABentPipeAndNoneBesideIt)
   EXPECT_FALSE(locate(grid, {0.0, 0.0, -0.01}).has_value());
 }
 
+TEST(Standings, TellPointsInsideOnSidesAndOutside)
+{
+  const Index3 cells{9, 8, 10};
+  const Grid grid(MPI_COMM_WORLD, cells, test::mapped_nodes(cells, test::Waved{.amplitude = 0.08}), {});
+  std::vector<Vec3> points;
+  const auto node = [&](int i, int j, int k) { return test::Waved{.amplitude = 0.08}({i / 9.0, j / 8.0, k / 10.0}); };
+  points.push_back(0.5 * (node(4, 4, 5) + node(5, 5, 6)));
+  points.push_back(0.25 * (node(0, 3, 4) + node(0, 4, 4) + node(0, 3, 5) + node(0, 4, 5)));  // on xi_min
+  points.push_back(node(9, 8, 3));                                                           // on two sides
+  points.push_back({3.0, 0.5, 0.5});
+  points.push_back(node(0, 3, 4) - Vec3(1e-6, 0.0, 0.0));
+  const std::vector<Standing> standing = standings(grid, points);
+  const auto sides = [&](std::size_t p) {
+    int count = 0;
+    for (const auto& ends : standing[p].on_side)
+      count += ends[0] + ends[1];
+    return count;
+  };
+  EXPECT_TRUE(standing[0].inside && sides(0) == 0);
+  EXPECT_TRUE(standing[1].inside && standing[1].on_side[0][0] && sides(1) == 1);
+  EXPECT_TRUE(standing[2].inside && standing[2].on_side[0][1] && standing[2].on_side[1][1] && sides(2) == 2);
+  EXPECT_FALSE(standing[3].inside);
+  EXPECT_FALSE(standing[4].inside);
+}
+
 }  // namespace
 }  // namespace luff::grid

@@ -84,7 +84,7 @@ inline SurfaceSnapshot sample_sheet(int n, double t = 0)
   for (std::size_t e = 0; e < sheet.triangles.size(); ++e)
     load.push_back(static_cast<double>(e));
   sheet.point_fields = {{"displacement", 3, displacement}};
-  sheet.triangle_fields = {{"load", 1, load}};
+  sheet.face_fields = {{"load", 1, load}};
   return sheet;
 }
 

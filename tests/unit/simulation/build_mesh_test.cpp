@@ -68,10 +68,10 @@ TEST(MarkFields, AreOneOnMembersAndZeroElsewhere)
   EXPECT_EQ(snapshot.point_fields[0].name, "corner");
   EXPECT_EQ(std::get<std::vector<float>>(snapshot.point_fields[0].values), (std::vector<float>{0, 0, 1, 0}));
   EXPECT_EQ(std::get<std::vector<float>>(snapshot.point_fields[1].values), (std::vector<float>{1, 0, 0, 1}));
-  ASSERT_EQ(snapshot.triangle_fields.size(), 2u);
-  EXPECT_EQ(std::get<std::vector<float>>(snapshot.triangle_fields[0].values), (std::vector<float>{0, 1}));
-  EXPECT_EQ(snapshot.triangle_fields[1].components, 3);
-  EXPECT_EQ(std::get<std::vector<double>>(snapshot.triangle_fields[1].values), (std::vector<double>{1, 2, 3, 4, 5, 6}));
+  ASSERT_EQ(snapshot.face_fields.size(), 2u);
+  EXPECT_EQ(std::get<std::vector<float>>(snapshot.face_fields[0].values), (std::vector<float>{0, 1}));
+  EXPECT_EQ(snapshot.face_fields[1].components, 3);
+  EXPECT_EQ(std::get<std::vector<double>>(snapshot.face_fields[1].values), (std::vector<double>{1, 2, 3, 4, 5, 6}));
 }
 
 }  // namespace
