@@ -229,9 +229,11 @@ std::vector<double> decay_times(const grid::Grid& grid, std::size_t bodies, std:
   std::vector<double> fastest(bodies, speed);
   for (const CutFace& face : faces)
     if (const int body = body_of_hit[face.first]; body >= 0) {
+      fastest[body] = std::max(fastest[body], velocity[face.first].norm());
+      if (!grid.owned().contains(face.cell))
+        continue;  // another rank has it too
       lengths[2 * body] += distance_across(grid, face.axis, face.cell);
       lengths[2 * body + 1] += 1.0;
-      fastest[body] = std::max(fastest[body], velocity[face.first].norm());
     }
   const MPI_Comm comm = grid.ranks().comm();
   MPI_Allreduce(MPI_IN_PLACE, lengths.data(), static_cast<int>(lengths.size()), MPI_DOUBLE, MPI_SUM, comm);

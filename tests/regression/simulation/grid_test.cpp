@@ -149,9 +149,9 @@ TEST(BodiesInACurvilinearGrid, FeelTheFlowAlikeOnOneAndTwoRanks)
     folder.write("case.toml", flow_in(pipe) + body + "[output]\nwalls = { every = 0.1 }\n");
     const std::string one = std::string("one-") + name;
     const std::string two = std::string("two-") + name;
-    const Outcome run = luff(folder, {"run", "case.toml", "--out", one});
+    const Outcome run = luff(folder, {"run", "case.toml", "--set", "time.step=0.0125", "--out", one});
     ASSERT_EQ(run.status, 0) << run.said;
-    ASSERT_EQ(luff_on_ranks(2, folder, {"run", "case.toml", "--out", two}).status, 0);
+    ASSERT_EQ(luff_on_ranks(2, folder, {"run", "case.toml", "--set", "time.step=0.0125", "--out", two}).status, 0);
     EXPECT_LT(read_summary(folder.path() / one)["max_divergence"], 1e-13);
     const std::string table = std::string("forces-") + name + ".csv";
     const double force = read_table(folder.path() / one / table).column("force_z [force]").back();
