@@ -21,7 +21,7 @@ struct Folds {
 /// In configuration x, with supports at time t, moved by the part `factor` of their motion.
 Folds folds(const Shell& shell, const Eigen::VectorXd& x, double t = 0, double factor = 1);
 
-/// Folds, none above `limit` [degrees]: the element's resistance has a maximum at 90 and falls beyond.
+/// Folds, none above `limit` [degrees]: the element's energy has a maximum at 90 and falls beyond.
 /// \throws RunError that starts with `when` and names the place.
 Folds check_folds(const Shell& shell, const Eigen::VectorXd& x, double limit, const std::string& when, double t = 0,
                   double factor = 1);

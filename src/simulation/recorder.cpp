@@ -711,6 +711,8 @@ void Recorder::name_files() const
       list += fmt::format(" {}", folder_.file((sheet.deforms ? "shell-" : "body-") + sheet.name + ".pvd").string());
   if (fields_)
     list += fmt::format(" {}", folder_.file("fields.pvd").string());
+  if (walls_)
+    list += fmt::format(" {}", folder_.file("walls.pvd").string());
   if (!list.empty())
     log_->info("open together in ParaView:{}", list);
   log_->info("tables: {} (steps, probes, forces); summary: {}", folder_.file("*.csv").string(),
