@@ -43,6 +43,7 @@ class Benchmark:
     curves: list
     meshes: dict  # label -> settings of the case
     settings: dict = field(default_factory=dict)
+    limit: tuple = None  # published first maximum of the load factor, and the first curve's displacement there
 
 
 def table(file, column):
@@ -55,6 +56,12 @@ def single(name):
     with open(root / "validation" / "data" / "linear_shells.csv") as lines:
         rows = csv.DictReader(line for line in lines if not line.startswith("#"))
         return [(1.0, float(row["displacement"])) for row in rows if row["benchmark"] == name]
+
+
+def first_maximum(thickness):
+    with open(root / "validation" / "data" / "sze2004_hinged_roofs.csv") as lines:
+        rows = csv.DictReader(line for line in lines if not line.startswith("#"))
+        return next((float(r["load_fraction"]), float(r["minus_W_C"])) for r in rows if float(r["thickness"]) == thickness)
 
 
 def roll_up(component):
@@ -123,18 +130,26 @@ BENCHMARKS = {
             Curve("-U_B", "side", "y", -1, table("sze2004_pullout_open_cylinder.csv", "minus_U_B")),
             Curve("-U_C", "end", "y", -1, table("sze2004_pullout_open_cylinder.csv", "minus_U_C")),
         ],
-        meshes("cylinder", ("alternating", 72, 48), ("irregular", 72, 48)),
+        meshes("cylinder", *((pattern, n, 2 * n // 3) for pattern in ("alternating", "irregular") for n in (72, 108))),
     ),
     "pinched-cylinder-diaphragms": Benchmark(
         [
             Curve("-W_A", "force", "z", -1, table("sze2004_pinched_cylinder_diaphragms.csv", "minus_W_A")),
             Curve("U_B", "side", "y", 1, table("sze2004_pinched_cylinder_diaphragms.csv", "U_B")),
+            Curve("-W_A, solid", "force", "z", -1, table("calculix_pinched_cylinder_diaphragms.csv", "C3D20R_minus_W_A")),
+            Curve("U_B, solid", "side", "y", 1, table("calculix_pinched_cylinder_diaphragms.csv", "C3D20R_U_B")),
         ],
-        meshes("cylinder", ("alternating", 60, 40), ("irregular", 60, 40), ("alternating", 120, 80), ("irregular", 120, 80)),
+        meshes("cylinder", *((pattern, n, 2 * n // 3) for pattern in ("alternating", "irregular") for n in (60, 90, 120))),
     ),
     "pinched-semicylinder": Benchmark(
         [Curve("-W", "force", "z", -1, table("sze2004_pinched_semicylinder.csv", "minus_W"))],
         meshes("cylinder", ("alternating", 48, 64), ("irregular", 48, 64)),
+    ),
+    "hinged-roof": Benchmark(
+        [Curve("-w", "force", "z", -1, [])], refined("roof", ("alternating", "irregular"), (12, 24, 48)), limit=first_maximum(12.7)
+    ),
+    "hinged-roof-thin": Benchmark(
+        [Curve("-w", "force", "z", -1, [])], refined("roof", ("alternating", "irregular"), (12, 24, 48)), limit=first_maximum(6.35)
     ),
 }
 
@@ -198,6 +213,24 @@ def report(name, mesh, curve, summary, seconds, out):
     return path
 
 
+def report_limit(name, mesh, curve, limit, summary, seconds, out):
+    """The first maximum of the load, by a parabola through the three highest points along the path."""
+    path = path_of(curve, out)
+    top = next(n for n in range(1, len(path) - 1) if path[n, 0] > path[n + 1, 0])
+    chord = np.hypot(*(np.diff(path[top - 1 : top + 2], axis=0) / path[top]).T)
+    along = np.array([-chord[0], 0.0, chord[1]])
+    load, moved = (np.polyfit(along, path[top - 1 : top + 2, c], 2) for c in (0, 1))
+    at = -load[1] / (2 * load[0])
+    highest, displacement = np.polyval(load, at), np.polyval(moved, at)
+    print(
+        f"{name} | {mesh} | first maximum, and {curve.label} there | {summary['state']} at {path[:, 0].max():.3g} | | "
+        f"{highest:.5g}, {displacement:.5g} | {limit[0]:.5g}, {limit[1]:.5g} | {100 * (highest / limit[0] - 1):+.2f}, "
+        f"{100 * (displacement / limit[1] - 1):+.2f} % | {seconds:.0f} s",
+        flush=True,
+    )
+    return path
+
+
 def compare(name, benchmark, out):
     figure, axis = plt.subplots(figsize=(7, 5))
     for number, (mesh, settings) in enumerate(benchmark.meshes.items()):
@@ -205,10 +238,15 @@ def compare(name, benchmark, out):
         folder.parent.mkdir(parents=True, exist_ok=True)
         summary, seconds = run(name, {**benchmark.settings, **settings}, folder)
         for curve in benchmark.curves:
-            path = report(name, mesh, curve, summary, seconds, folder)
+            if benchmark.limit:
+                path = report_limit(name, mesh, curve, benchmark.limit, summary, seconds, folder)
+            else:
+                path = report(name, mesh, curve, summary, seconds, folder)
             axis.plot(path[:, 1], path[:, 0], color=f"C{number}", label=f"{curve.label}, {mesh}")
+    if benchmark.limit:
+        axis.plot(benchmark.limit[1], benchmark.limit[0], "o", color="k", fillstyle="none", label="first maximum, published")
     for curve in benchmark.curves:
-        loads, published = zip(*curve.published)
+        loads, published = zip(*curve.published) if curve.published else ((), ())
         axis.plot(published, loads, "o", color="k", fillstyle="none", label=f"{curve.label}, published")
     axis.set(title=name, xlabel="displacement", ylabel="load factor")
     axis.legend(fontsize=7)
