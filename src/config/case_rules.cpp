@@ -115,6 +115,8 @@ void state_case_rules(Schema& s, const Case& options)
               (options.structure.analysis == Analysis::Dynamic || options.structure.analysis == Analysis::Static)),
          "structure.solver", "must be \"direct\" for modes, on paths with unstable equilibria, and with damping");
   s.rule(flows || options.contact || options.bodies.empty(), "body", "must be left out without a [fluid] or [contact]");
+  s.rule(!options.contact || options.structure.stabilisation == StructureStabilisation::None, "structure.stabilisation",
+         "must be \"none\" with [contact], which goes down to stable equilibria anyway");
   s.rule(flows || !options.output.fields, "output.fields", "must be left out without a [fluid]");
   const auto& sides = options.boundary.sides;
   const bool has_wall =

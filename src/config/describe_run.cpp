@@ -18,11 +18,14 @@ void describe(Schema& s, Case& options)
   });
   s.list("shell", options.shells, {.doc = "A thin flexible shell; any number of them."});
   s.list("body", options.bodies, {.doc = "A rigid thin sheet or closed body; any number of them."});
-  s.when(options.structure.analysis == Analysis::Dynamic, "`structure.analysis = \"dynamic\"`", [&] {
-    s.table("contact", options.contact,
-            {.doc = "Contact of shells with each other, with themselves and with bodies. Absent: they pass through "
-                    "each other unnoticed."});
-  });
+  const Analysis analysis = options.structure.analysis;
+  s.when(analysis == Analysis::Dynamic || analysis == Analysis::Static,
+         "`structure.analysis = \"dynamic\"` or `\"static\"`", [&] {
+           s.table(
+               "contact", options.contact,
+               {.doc = "Contact of shells with each other, with themselves and with bodies. Absent: they pass through "
+                       "each other unnoticed."});
+         });
   s.table("pressure", options.pressure, {.doc = "How the pressure is solved for."});
   s.table("immersed", options.immersed, {.doc = "How the flow sees surfaces."});
   s.table("coupling", options.coupling, {.doc = "How flow and shells find each other in a time step."});

@@ -41,6 +41,20 @@ void BlockMatrix::scale(double factor)
     value *= factor;
 }
 
+void BlockMatrix::add_diagonal(double factor, const Eigen::VectorXd& weights)
+{
+  for (int v = 0; v < pattern_->n_rows(); ++v)
+    block(pattern_->slot(v, v)).diagonal().array() += factor * weights[v];
+}
+
+double BlockMatrix::trace() const
+{
+  double sum = 0;
+  for (int v = 0; v < pattern_->n_rows(); ++v)
+    sum += block(pattern_->slot(v, v)).trace();
+  return sum;
+}
+
 BlockPattern united(const BlockPattern& pattern, std::span<const std::array<int, 4>> groups)
 {
   const int n = pattern.n_rows();

@@ -52,6 +52,9 @@ class BlockMatrix {
   void scale(double factor);
   /// this += factor * other, whose blocks must all exist here.
   void add(double factor, const BlockMatrix& other);
+  /// this += factor * weights[v] I at every vertex v.
+  void add_diagonal(double factor, const Eigen::VectorXd& weights);
+  double trace() const;
   Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;
   /// All entries, 3n x 3n; for tests and small problems.
   Eigen::MatrixXd dense() const;

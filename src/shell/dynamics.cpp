@@ -199,7 +199,9 @@ SmoothBalance Dynamics::smooth_balance(const StepTerms& terms) const
   balance.tangent = [&](const Eigen::VectorXd& x_new, BlockMatrix& K) {
     assemble_tangent(configuration(x_new), terms.images, terms.loads, terms.dt, K);
   };
-  balance.inertia = scheme.acceleration_slope(terms.dt);
+  balance.add_resistance = [&](double part, BlockMatrix& K) {
+    shell_.add_mass(part * scheme.acceleration_slope(terms.dt), K);
+  };
   Eigen::VectorXd applied = terms.loads.force(state_.x) + terms.fluid;
   shell_.clear_held(applied);
   balance.force_scale = std::max(applied.norm(), shell_.mass_times(state_.a).norm());

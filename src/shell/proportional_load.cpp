@@ -18,9 +18,19 @@ Eigen::VectorXd ProportionalLoad::load(const Eigen::VectorXd& x) const
 
 Eigen::VectorXd ProportionalLoad::residual(const Eigen::VectorXd& x, double factor) const
 {
-  Eigen::VectorXd r = factor * loads_.force(x) - shell_.internal_force(x, shell_.images_at(x, time_, factor));
+  Eigen::VectorXd r = factor * loads_.force(x) - internal_force(x, factor);
   shell_.clear_held(r);
   return r;
+}
+
+double ProportionalLoad::elastic_energy(const Eigen::VectorXd& x, double factor) const
+{
+  return shell_.elastic_energy(x, shell_.images_at(x, time_, factor));
+}
+
+Eigen::VectorXd ProportionalLoad::internal_force(const Eigen::VectorXd& x, double factor) const
+{
+  return shell_.internal_force(x, shell_.images_at(x, time_, factor));
 }
 
 void ProportionalLoad::place_supports(double factor, Eigen::VectorXd& x) const
@@ -38,9 +48,7 @@ void ProportionalLoad::add_tangent(const Eigen::VectorXd& x, double factor, Bloc
 double ProportionalLoad::released_energy(const Eigen::VectorXd& x, const Eigen::VectorXd& y, double factor) const
 {
   const Eigen::VectorXd mean_force = (loads_.force(x) + 4 * loads_.force(0.5 * (x + y)) + loads_.force(y)) / 6;
-  const double stored = shell_.elastic_energy(y, shell_.images_at(y, time_, factor)) -
-                        shell_.elastic_energy(x, shell_.images_at(x, time_, factor));
-  return factor * mean_force.dot(y - x) - stored;
+  return factor * mean_force.dot(y - x) - (elastic_energy(y, factor) - elastic_energy(x, factor));
 }
 
 Equilibrium ProportionalLoad::equilibrium(const double& factor) const

@@ -23,6 +23,9 @@ class ProportionalLoad {
   Eigen::VectorXd load(const Eigen::VectorXd& x) const;
   /// factor f_ext - f_int, zero where held.
   Eigen::VectorXd residual(const Eigen::VectorXd& x, double factor) const;
+  double elastic_energy(const Eigen::VectorXd& x, double factor) const;
+  /// f_int
+  Eigen::VectorXd internal_force(const Eigen::VectorXd& x, double factor) const;
   /// Put what is held where the factor's part of its motion takes it.
   void place_supports(double factor, Eigen::VectorXd& x) const;
   /// K += -d residual / d x

@@ -52,10 +52,7 @@ class Settling {
   {
     tangent_.K.set_zero();
     problem_.add_tangent(x_, factor_, tangent_.K);
-    double trace = 0;
-    for (int v = 0; v < shell_.n_vertices(); ++v)
-      trace += tangent_.K.block(tangent_.K.pattern().slot(v, v)).trace();
-    const double least = 1e-12 * std::abs(trace) / areas_.sum();
+    const double least = 1e-12 * std::abs(tangent_.K.trace()) / areas_.sum();
     return std::max(least, residual_.norm() / std::sqrt(shell_.n_vertices()) /
                                (1e-3 * shell_.size() * areas_.sum() / shell_.n_vertices()));
   }
@@ -65,8 +62,7 @@ class Settling {
   {
     tangent_.K.set_zero();
     problem_.add_tangent(x_, factor_, tangent_.K);
-    for (int v = 0; v < shell_.n_vertices(); ++v)
-      tangent_.K.block(tangent_.K.pattern().slot(v, v)) += damping_ * areas_[v] * Mat3::Identity();
+    tangent_.K.add_diagonal(damping_, areas_);
     shell_.supports().decouple(tangent_.K);
     tangent_.factorisation = tangent_.solver->factorise(tangent_.K);
     tangent_.valid = false;

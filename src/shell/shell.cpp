@@ -152,6 +152,19 @@ Vec3 Shell::normal_of(const Mirror& mirror, double t, double factor) const
   return mirror.motion < 0 ? mirror.normal : Vec3(held_.motions[mirror.motion].turn(t, factor) * mirror.normal);
 }
 
+surface::TriangleMesh Shell::reference_of(const PieceRange& piece) const
+{
+  const auto first = reference_.vertices.begin() + piece.first_vertex;
+  surface::TriangleMesh mesh{{first, first + piece.n_vertices}, {}};
+  for (int t = piece.first_triangle; t < piece.first_triangle + piece.n_triangles; ++t) {
+    auto corners = reference_.triangles[t];
+    for (int& v : corners)
+      v -= piece.first_vertex;
+    mesh.triangles.push_back(corners);
+  }
+  return mesh;
+}
+
 /// Mirrors that move: normal R n, through the middle of the edge where x has it.
 Images Shell::images_at(const Eigen::VectorXd& x, double t, double factor) const
 {

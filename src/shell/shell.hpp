@@ -57,6 +57,8 @@ class Shell {
   const std::vector<PieceRange>& pieces() const { return pieces_; }
   const PieceRange& piece_of_vertex(int vertex) const;
   const surface::TriangleMesh& reference() const { return reference_; }
+  /// In its own numbering.
+  surface::TriangleMesh reference_of(const PieceRange& piece) const;
   const surface::Topology& topology() const { return topology_; }
   int n_vertices() const { return reference_.n_vertices(); }
   /// Diagonal of the bounding box of the largest piece's reference [L].

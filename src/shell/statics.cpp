@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -12,6 +14,7 @@
 #include "shell/proportional_load.hpp"
 #include "shell/settling.hpp"
 #include "shell/step_length.hpp"
+#include "shell/vertex_areas.hpp"
 
 namespace luff::shell {
 
@@ -45,6 +48,8 @@ class LoadPath {
                 options.stabilisation == Stabilisation::Damping ? few_halvings : options.max_halvings)
   {
     now_.positions = shell.reference_positions();
+    if (options.contact)
+      start_contact(*options.contact);
   }
 
   /// The equilibrium at load factor step / steps.
@@ -69,7 +74,7 @@ class LoadPath {
     Eigen::VectorXd x = now_.positions;
     try {
       move_supports(factor, x);
-      equilibrate(x, factor);
+      contact_ ? touch(x, factor) : equilibrate(x, factor);
     } catch (const RunError& error) {
       if (length_.halve())
         return;
@@ -126,6 +131,54 @@ class LoadPath {
     }
   }
 
+  void start_contact(ContactOptions contact)
+  {
+    // A step may be long: Newton's method goes down the energy from far away, and a fold may need any resistance.
+    // Surfaces slide along each other against little else than what the Gauss-Newton part of the Hessian leaves out.
+    contact.newton.hessian = ContactHessian::Exact;
+    contact.newton.max_iterations = 200;
+    contact.newton.most_shifts = 10;
+    contact.newton.shift_ratio = 10;
+    contact_ = std::make_unique<ContactStep>(problem_.shell(), contact, options_.linear_solver, now_.positions, 0.0);
+    areas_ = vertex_areas(problem_.shell());
+    viscosity_ = least_viscosity();
+  }
+
+  /// Per area, of no consequence to what is stiff: a part of the mean stiffness of the reference.
+  double least_viscosity()
+  {
+    constexpr double part = 1e-9;
+    tangent_.K.set_zero();
+    problem_.add_tangent(now_.positions, 0, tangent_.K);
+    return part * tangent_.K.trace() / (3 * areas_.sum());
+  }
+
+  /// Down the potential energy of shell, loads and contact to an equilibrium.
+  void touch(Eigen::VectorXd& x, double factor)
+  {
+    ContactNewton::Result result = contact_->solve(balance(factor), x, factor, when(factor));
+    x = result.positions;
+    now_.report = std::move(result.report);
+    now_.iterations += now_.report.iterations;
+    contact_->accept(x, factor);
+    now_.contact = {contact_->report(), contact_->energy(), contact_->crossings().count};
+  }
+
+  SmoothBalance balance(double factor)
+  {
+    SmoothBalance balance;
+    balance.elastic_energy = [this, factor](const Eigen::VectorXd& x) { return problem_.elastic_energy(x, factor); };
+    balance.elastic_force = [this, factor](const Eigen::VectorXd& x) { return problem_.internal_force(x, factor); };
+    balance.other_forces = [this, factor](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+      return factor * problem_.load(x);
+    };
+    balance.tangent = [this, factor](const Eigen::VectorXd& x, BlockMatrix& K) { problem_.add_tangent(x, factor, K); };
+    balance.add_resistance = [this](double part, BlockMatrix& K) { K.add_diagonal(part * viscosity_, areas_); };
+    balance.force_scale = factor * problem_.load(now_.positions).norm();
+    balance.energy = problem_.elastic_energy(now_.positions, now_.load_factor);
+    return balance;
+  }
+
   void snap(Eigen::VectorXd& x, double factor)
   {
     const SettlingReport settled = settle(problem_, factor, {.newton = options_.newton}, tangent_, x, when(factor));
@@ -154,7 +207,10 @@ class LoadPath {
   ProportionalLoad problem_;
   KeptTangent tangent_;
   StepLength length_;
-  bool limit_met_ = false;  ///< unstable states were met since the last equilibrium
+  bool limit_met_ = false;                ///< unstable states were met since the last equilibrium
+  std::unique_ptr<ContactStep> contact_;  ///< null without
+  Eigen::VectorXd areas_;                 ///< of vertices, with contact
+  double viscosity_ = 0;                  ///< per area, with contact
   StaticStep now_;
 };
 
@@ -208,6 +264,10 @@ void check_static(const Shell& shell, const StaticOptions& options)
   if (options.stabilisation == Stabilisation::Damping && options.linear_solver != LinearSolverKind::Direct)
     fail_input("shell '{}': stabilisation by damping needs the direct solver, which tells stable from unstable",
                shell.name());
+  if (options.stabilisation == Stabilisation::Damping && options.contact)
+    fail_input(
+        "shell '{}': stabilisation by damping must be left out with contact, which finds stable equilibria anyway",
+        shell.name());
   check_supported(shell);
 }
 

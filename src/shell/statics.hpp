@@ -3,11 +3,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "shell/contact/contact_step.hpp"
 #include "shell/folds.hpp"
 #include "shell/loads.hpp"
 #include "shell/newton.hpp"
@@ -28,6 +30,16 @@ struct StaticOptions {
   NewtonPolicy newton{.tolerance = 1e-11, .slow = 0, .max_iterations = 20};
   LinearSolverKind linear_solver = LinearSolverKind::Direct;
   Stabilisation stabilisation = Stabilisation::None;  ///< of solve_static alone; Damping needs the direct solver
+  /// Of solve_static alone. Every step then goes down the potential energy to a stable equilibrium, through snaps if
+  /// need be. Bodies are where `body_positions` of the load factor says.
+  std::optional<ContactOptions> contact{};
+};
+
+/// What touches at an equilibrium.
+struct StaticContact {
+  ContactReport report;
+  double energy = 0;  ///< of the barriers [M L^2/T^2]
+  int crossings = 0;  ///< edges that pass through triangles
 };
 
 /// Equilibrium at one load factor.
@@ -39,6 +51,7 @@ struct StaticStep {
   int iterations = 0;         ///< of Newton's method since the last reported step, failed attempts included
   int damped_iterations = 0;  ///< of settle() since the last reported step; more than zero: the shell snapped
   Folds folds;
+  std::optional<StaticContact> contact;
 };
 
 /// Whether the step from start to end left the path for another equilibrium: whether it is much longer than the path's
@@ -59,10 +72,9 @@ void check_static(const Shell& shell, const StaticOptions& options);
 void check_supports_rest(const Shell& shell, std::string_view analysis);
 
 /// Load stepping with full Newton steps, halved where they fail; returns the last equilibrium, reports each.
-/// \throws InputError when a rigid motion of the shell meets no support, for steps < 1 or damping without the direct
-/// solver.
-/// \throws RunError naming the step, load factor and place when there is no equilibrium (at a limit point it says so)
-/// or the shell folds.
+/// \throws InputError when a rigid motion of the shell meets no support, for steps < 1, damping without the direct
+/// solver or with contact, and as Contact does. \throws RunError naming the step, load factor and place when there is
+/// no equilibrium (at a limit point it says so) or the shell folds.
 StaticStep solve_static(const Shell& shell, const std::vector<Load>& loads, const StaticOptions& options = {},
                         const OnStaticStep& on_step = {});
 

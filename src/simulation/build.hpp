@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <mpi.h>
@@ -22,6 +23,7 @@ struct LoadedShell {
   std::unique_ptr<shell::Shell> shell;
   std::vector<shell::Load> loads;
   std::vector<surface::Marks> marks;  ///< of each shell's mesh
+  std::optional<shell::ContactOptions> contact = {};
 };
 /// At least one shell.
 [[nodiscard]] LoadedShell build_shell(const std::vector<config::ShellOptions>& options);
@@ -29,6 +31,8 @@ struct LoadedShell {
                                                           const shell::Shell& shell);
 [[nodiscard]] shell::LinearSolverKind build_solver(config::StructureSolver solver);
 [[nodiscard]] std::unique_ptr<Structure> build_structure(const config::Case& options);
+/// Of a static analysis with [contact]: bodies are where the load factor's part of their motion takes them.
+[[nodiscard]] shell::ContactOptions build_static_contact(const config::Case& options);
 
 [[nodiscard]] fluid::TimeScheme time_scheme(config::TimeScheme scheme);
 [[nodiscard]] fluid::Boundaries build_boundaries(const config::Case& options);

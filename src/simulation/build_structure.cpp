@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <functional>
+
 #include <Eigen/Geometry>
 
 #include "core/error.hpp"
@@ -7,6 +9,7 @@
 #include "simulation/build_mesh.hpp"
 #include "simulation/build_material.hpp"
 #include "simulation/refusal.hpp"
+#include "simulation/still_run.hpp"
 #include "surface/selection.hpp"
 
 namespace luff::simulation {
@@ -173,21 +176,30 @@ shell::TimeScheme scheme_of(const config::StructureOptions& structure)
   return shell::TimeScheme::newmark(structure.numerical_damping);
 }
 
-/// The bodies as contact sees them.
-shell::ContactOptions contact_of(const config::ContactOptions& options, const std::vector<RigidSheet>& rigid)
+/// The bodies as contact sees them, and where they are at a time, or at a load factor.
+shell::ContactOptions contact_of(const config::ContactOptions& options, const std::vector<RigidSheet>& rigid,
+                                 const std::function<Vec3(const RigidSheet&, const Vec3& x_0, double t)>& place)
 {
   shell::ContactOptions contact;
   contact.law = {.distance = options.distance, .stiffness = options.stiffness, .self = options.self};
   for (const RigidSheet& sheet : rigid)
     contact.bodies.push_back({sheet.name, sheet.mesh, /*deforms=*/false});
-  contact.body_positions = [rigid](double t) {
+  contact.body_positions = [rigid, place](double t) {
     std::vector<Vec3> positions;
     for (const RigidSheet& sheet : rigid)
       for (const Vec3& x_0 : sheet.mesh.vertices)
-        positions.push_back(sheet.motion.position(x_0, t));
+        positions.push_back(place(sheet, x_0, t));
     return surface::interleaved(positions);
   };
   return contact;
+}
+
+std::vector<RigidSheet> build_rigid_sheets(const config::Case& options)
+{
+  std::vector<RigidSheet> rigid;
+  for (const config::BodyOptions& body : options.bodies)
+    rigid.push_back(build_rigid(body, options));
+  return rigid;
 }
 
 Shells build_shells(const config::Case& options, const std::vector<RigidSheet>& rigid)
@@ -205,7 +217,9 @@ Shells build_shells(const config::Case& options, const std::vector<RigidSheet>& 
   dynamics.fold_limit = options.structure.fold_limit;
   dynamics.linear_solver = build_solver(options.structure.solver);
   if (options.contact)
-    dynamics.contact = contact_of(*options.contact, rigid);
+    dynamics.contact = contact_of(*options.contact, rigid, [](const RigidSheet& sheet, const Vec3& x_0, double t) {
+      return sheet.motion.position(x_0, t);
+    });
   shells.dynamics = refusing_at(options.contact ? options.contact->mark : config::Mark{}, [&] {
     return std::make_unique<shell::Dynamics>(*shells.shell, built.loads, dynamics);
   });
@@ -225,6 +239,14 @@ shell::ControlledDisplacement build_control(const config::ControlOptions& option
   });
 }
 
+shell::ContactOptions build_static_contact(const config::Case& options)
+{
+  return contact_of(options.contact.value(), build_rigid_sheets(options),
+                    [](const RigidSheet& sheet, const Vec3& x_0, double factor) {
+                      return sheet.motion.position(x_0, end_of_loading, factor);
+                    });
+}
+
 shell::LinearSolverKind build_solver(config::StructureSolver solver)
 {
   switch (solver) {
@@ -240,9 +262,7 @@ shell::LinearSolverKind build_solver(config::StructureSolver solver)
 
 std::unique_ptr<Structure> build_structure(const config::Case& options)
 {
-  std::vector<RigidSheet> rigid;
-  for (const config::BodyOptions& body : options.bodies)
-    rigid.push_back(build_rigid(body, options));
+  std::vector<RigidSheet> rigid = build_rigid_sheets(options);
   Shells shells = build_shells(options, rigid);
   return std::make_unique<Structure>(std::move(shells), std::move(rigid));
 }

@@ -46,7 +46,7 @@ output::SurfaceSnapshot mode_snapshot(const shell::Shell& shell, const Base& bas
   for (int v = 0; v < shell.n_vertices(); ++v)
     largest = std::max(largest, shape.segment<3>(3 * v).norm());
   const Eigen::VectorXd u = visible * shell.size() / largest * shape;
-  output::SurfaceSnapshot snapshot = displaced(shell, base.positions + u);
+  output::SurfaceSnapshot snapshot = displaced(shell.reference(), base.positions + u);
   snapshot.point_fields.front().values = std::vector<double>(u.data(), u.data() + u.size());
   return snapshot;
 }

@@ -19,12 +19,12 @@ shell::StaticOptions static_options(const config::StructureOptions& structure)
   return options;
 }
 
-output::SurfaceSnapshot displaced(const shell::Shell& shell, const Eigen::VectorXd& x)
+output::SurfaceSnapshot displaced(const surface::TriangleMesh& reference, const Eigen::VectorXd& x)
 {
   output::SurfaceSnapshot result;
-  const Eigen::VectorXd u = x - shell.reference_positions();
+  const Eigen::VectorXd u = x - surface::interleaved(reference.vertices);
   result.points = surface::points(x);
-  result.triangles = shell.reference().triangles;
+  result.triangles = reference.triangles;
   result.point_fields.push_back({"displacement", 3, std::vector<double>(u.data(), u.data() + u.size())});
   return result;
 }

@@ -23,8 +23,8 @@ inline constexpr double end_of_loading = 1.0;
 struct Stopped {};
 
 [[nodiscard]] shell::StaticOptions static_options(const config::StructureOptions& structure);
-/// A shell with positions x and its displacement from the reference.
-[[nodiscard]] output::SurfaceSnapshot displaced(const shell::Shell& shell, const Eigen::VectorXd& x);
+/// A surface with positions x (3n) and its displacement from the reference.
+[[nodiscard]] output::SurfaceSnapshot displaced(const surface::TriangleMesh& reference, const Eigen::VectorXd& x);
 /// Runs `analyse`, which fills the summary, and writes the summary however it ends; the log names the tables.
 void summarise(const output::RunFolder& folder, spdlog::logger& log, nlohmann::ordered_json& summary,
                const std::string& tables, const std::function<void()>& analyse);

@@ -16,19 +16,6 @@ void append(std::vector<Vec3>& to, const Eigen::VectorXd& values)
     to.emplace_back(values.segment<3>(n));
 }
 
-surface::TriangleMesh mesh_of(const shell::Shell& shell, const shell::PieceRange& piece)
-{
-  const auto first = shell.reference().vertices.begin() + piece.first_vertex;
-  surface::TriangleMesh mesh{{first, first + piece.n_vertices}, {}};
-  for (int t = piece.first_triangle; t < piece.first_triangle + piece.n_triangles; ++t) {
-    auto corners = shell.reference().triangles[t];
-    for (int& v : corners)
-      v -= piece.first_vertex;
-    mesh.triangles.push_back(corners);
-  }
-  return mesh;
-}
-
 }  // namespace
 
 Structure::Structure(Shells shells, std::vector<RigidSheet> rigid)
@@ -38,7 +25,7 @@ Structure::Structure(Shells shells, std::vector<RigidSheet> rigid)
   if (shells_.shell) {
     shells_.marks.resize(shells_.shell->pieces().size());
     for (const shell::PieceRange& piece : shells_.shell->pieces()) {
-      add_sheet(piece.name, true, part, mesh_of(*shells_.shell, piece), shells_.marks[part]);
+      add_sheet(piece.name, true, part, shells_.shell->reference_of(piece), shells_.marks[part]);
       ++part;
     }
     length_ = shells_.shell->size();

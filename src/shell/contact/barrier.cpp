@@ -11,10 +11,11 @@ namespace luff::shell {
 
 namespace {
 
-/// m(y) and the derivatives of |a x b|^2 that its gradient needs.
+/// m(y) and its derivatives with respect to |a x b|^2.
 struct Mollifier {
   double value = 1;
-  double slope = 0;  ///< d m / d |a x b|^2
+  double slope = 0;
+  double curvature = 0;
 };
 
 double parallelogram_squared(const Corners& x)
@@ -27,7 +28,91 @@ Mollifier mollifier(const ContactPair& pair, const Corners& x)
   if (pair.kind == PairKind::PointTriangle)
     return {};
   const double y = parallelogram_squared(x) / pair.parallel;
-  return y < 1 ? Mollifier{y * (2 - y), (2 - 2 * y) / pair.parallel} : Mollifier{};
+  return y < 1 ? Mollifier{y * (2 - y), (2 - 2 * y) / pair.parallel, -2 / (pair.parallel * pair.parallel)}
+               : Mollifier{};
+}
+
+/// With c = |a x b|^2: dc/da = 2 (a b^2 - b (a.b)).
+PairGradient parallelogram_gradient(const Corners& x)
+{
+  const Vec3 a = x[1] - x[0], b = x[3] - x[2];
+  const Vec3 by_a = 2 * (b.squaredNorm() * a - a.dot(b) * b);
+  const Vec3 by_b = 2 * (a.squaredNorm() * b - a.dot(b) * a);
+  PairGradient gradient;
+  gradient << -by_a, by_a, -by_b, by_b;
+  return gradient;
+}
+
+/// d2c/da2 = 2 (b^2 I - b b'),   d2c/da db = 2 (2 a b' - b a' - (a.b) I)
+PairHessian parallelogram_hessian(const Corners& x)
+{
+  const Vec3 a = x[1] - x[0], b = x[3] - x[2];
+  const Mat3 I = Mat3::Identity();
+  const Mat3 aa = 2 * (b.squaredNorm() * I - b * b.transpose()), bb = 2 * (a.squaredNorm() * I - a * a.transpose());
+  const Mat3 ab = 2 * (2 * a * b.transpose() - b * a.transpose() - a.dot(b) * I);
+  PairHessian H;
+  H << aa, -aa, ab, -ab, -aa, aa, -ab, ab, ab.transpose(), -ab.transpose(), bb, -bb, -ab.transpose(), ab.transpose(),
+      -bb, bb;
+  return H;
+}
+
+PairGradient distance_gradient(const Closest& near)
+{
+  PairGradient gradient;
+  for (int k = 0; k < 4; ++k)
+    gradient.segment<3>(3 * k) = near.weight[k] * near.normal;
+  return gradient;
+}
+
+/// How the weights change as the closest points slide, one column per direction in which they may: along the first
+/// edge and the second; from one corner of the triangle to others. A weight of zero is at a bound and stays.
+Eigen::Matrix<double, 4, Eigen::Dynamic> slides(PairKind kind, const Closest& near)
+{
+  Eigen::Matrix<double, 4, Eigen::Dynamic> directions(4, 0);
+  const auto add = [&](int from, int to) {
+    directions.conservativeResize(4, directions.cols() + 1);
+    directions.rightCols<1>().setZero();
+    directions(from, directions.cols() - 1) = -1;
+    directions(to, directions.cols() - 1) = 1;
+  };
+  const auto& w = near.weight;
+  if (kind == PairKind::EdgeEdge) {
+    if (w[0] != 0 && w[1] != 0)
+      add(0, 1);
+    if (w[2] != 0 && w[3] != 0)
+      add(2, 3);
+    return directions;
+  }
+  const int first = w[1] != 0 ? 1 : w[2] != 0 ? 2 : 3;
+  for (int k = first + 1; k < 4; ++k)
+    if (w[k] != 0)
+      add(first, k);
+  return directions;
+}
+
+/// Of half the square of the distance, min over s of |v|^2/2, v = sum_k w_k(s) x_k, W = dw/ds and V = dv/ds:
+///
+///   d2/dx_k dx_l = w_k w_l I - C_k (V'V)^-1 C_l',       C_k = d2/dx_k ds = w_k V + v W_k.
+///
+/// From it that of the distance, (this - grad d grad d')/d.
+PairHessian distance_hessian(PairKind kind, const Corners& x, const Closest& near)
+{
+  const auto W = slides(kind, near);
+  Eigen::Matrix<double, 3, 4> X;
+  X << x[0], x[1], x[2], x[3];
+  const Eigen::Matrix<double, 3, Eigen::Dynamic> V = X * W;
+  const Vec3 v = near.distance * near.normal;
+  Eigen::Matrix<double, 12, Eigen::Dynamic> C(12, W.cols());
+  PairHessian H;
+  for (int k = 0; k < 4; ++k) {
+    C.middleRows<3>(3 * k) = near.weight[k] * V + v * W.row(k);
+    for (int l = 0; l < 4; ++l)
+      H.block<3, 3>(3 * k, 3 * l) = near.weight[k] * near.weight[l] * Mat3::Identity();
+  }
+  if (W.cols() > 0)
+    H -= C * (V.transpose() * V).inverse() * C.transpose();
+  const PairGradient d = distance_gradient(near);
+  return (H - d * d.transpose()) / near.distance;
 }
 
 }  // namespace
@@ -62,28 +147,18 @@ double pair_energy(const ContactPair& pair, const Corners& x, double stiffness)
   return pair.area * mollifier(pair, x).value * barrier(distance, pair.reach, stiffness).energy;
 }
 
-/// m b' grad d + b m' grad |a x b|^2; the first by the envelope theorem: weights that minimise the distance don't
-/// contribute to its derivative. With c = |a x b|^2: dc/da = 2 (a b^2 - b (a.b)).
+/// m b' grad d + b m' grad c, c = |a x b|^2; the first by the envelope theorem: weights that minimise the distance
+/// don't contribute to its derivative.
 PairGradient pair_gradient(const ContactPair& pair, const Corners& x, double stiffness)
 {
-  PairGradient gradient = PairGradient::Zero();
   const Closest near = closest(pair.kind, x);
   if (near.distance >= pair.reach)
-    return gradient;
+    return PairGradient::Zero();
   const BarrierValue b = barrier(near.distance, pair.reach, stiffness);
   const Mollifier m = mollifier(pair, x);
-  for (int k = 0; k < 4; ++k)
-    gradient.segment<3>(3 * k) = pair.area * m.value * b.slope * near.weight[k] * near.normal;
-  if (m.slope > 0) {
-    const Vec3 e = x[1] - x[0], f = x[3] - x[2];
-    const double factor = 2 * pair.area * b.energy * m.slope;
-    const Vec3 by_e = factor * (f.squaredNorm() * e - e.dot(f) * f);
-    const Vec3 by_f = factor * (e.squaredNorm() * f - e.dot(f) * e);
-    gradient.segment<3>(0) -= by_e;
-    gradient.segment<3>(3) += by_e;
-    gradient.segment<3>(6) -= by_f;
-    gradient.segment<3>(9) += by_f;
-  }
+  PairGradient gradient = pair.area * m.value * b.slope * distance_gradient(near);
+  if (m.slope > 0)
+    gradient += pair.area * b.energy * m.slope * parallelogram_gradient(x);
   return gradient;
 }
 
@@ -94,11 +169,28 @@ PairHessian pair_hessian(const ContactPair& pair, const Corners& x, double stiff
   if (near.distance >= pair.reach)
     return PairHessian::Zero();
   const double curvature = barrier(near.distance, pair.reach, stiffness).curvature;
-  const double root = std::sqrt(pair.area * mollifier(pair, x).value * curvature);
-  PairGradient s;
-  for (int k = 0; k < 4; ++k)
-    s.segment<3>(3 * k) = root * near.weight[k] * near.normal;
+  const PairGradient s = std::sqrt(pair.area * mollifier(pair, x).value * curvature) * distance_gradient(near);
   return s * s.transpose();
+}
+
+/// m (b'' grad d grad d' + b' H_d) + m' b' (grad c grad d' + grad d grad c') + b (m'' grad c grad c' + m' H_c)
+PairHessian exact_pair_hessian(const ContactPair& pair, const Corners& x, double stiffness)
+{
+  const Closest near = closest(pair.kind, x);
+  const Mollifier m = mollifier(pair, x);
+  PairHessian H = PairHessian::Zero();
+  if (near.distance >= pair.reach)
+    return H;
+  const BarrierValue b = barrier(near.distance, pair.reach, stiffness);
+  const PairGradient d = distance_gradient(near);
+  if (m.value > 0)
+    H = m.value * (b.curvature * d * d.transpose() + b.slope * distance_hessian(pair.kind, x, near));
+  if (m.slope > 0) {
+    const PairGradient c = parallelogram_gradient(x);
+    H += m.slope * b.slope * (c * d.transpose() + d * c.transpose());
+    H += b.energy * (m.curvature * c * c.transpose() + m.slope * parallelogram_hessian(x));
+  }
+  return pair.area * H;
 }
 
 }  // namespace luff::shell

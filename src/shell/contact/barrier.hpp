@@ -54,4 +54,7 @@ PairGradient pair_gradient(const ContactPair& pair, const Corners& x, double sti
 /// what the changing direction of the normal adds, which is negative, and the mollifier's derivatives.
 PairHessian pair_hessian(const ContactPair& pair, const Corners& x, double stiffness);
 
+/// Exact Hessian of pair_energy where the closest points stay on the pieces that they are on; indefinite.
+PairHessian exact_pair_hessian(const ContactPair& pair, const Corners& x, double stiffness);
+
 }  // namespace luff::shell

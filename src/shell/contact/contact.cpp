@@ -129,14 +129,15 @@ void Contact::add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) 
   }
 }
 
-void Contact::add_stiffness(const Eigen::VectorXd& x, BlockMatrix& K) const
+void Contact::add_stiffness(const Eigen::VectorXd& x, ContactHessian kind, BlockMatrix& K) const
 {
   const int n = K.pattern().n_rows();
   for (const ContactPair& pair : pairs_) {
     const Corners y = corners(x, pair.vertex);
     if (closest(pair.kind, y).distance >= pair.reach)
       continue;
-    const PairHessian H = pair_hessian(pair, y, law_.stiffness);
+    const PairHessian H = kind == ContactHessian::Exact ? exact_pair_hessian(pair, y, law_.stiffness)
+                                                        : pair_hessian(pair, y, law_.stiffness);
     for (int k = 0; k < 4; ++k)
       for (int l = 0; l < 4; ++l)
         if (pair.vertex[k] < n && pair.vertex[l] < n)

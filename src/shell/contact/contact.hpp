@@ -15,6 +15,11 @@
 
 namespace luff::shell {
 
+enum class ContactHessian : char {
+  GaussNewton,  ///< pair_hessian(): positive semi-definite
+  Exact         ///< exact_pair_hessian(): indefinite
+};
+
 struct ContactLaw {
   double distance = 0;   ///< where the force begins [L], > 0
   double stiffness = 0;  ///< pressure at about half that distance [M/(L T^2)], > 0
@@ -51,8 +56,8 @@ class Contact {
   double energy(const Eigen::VectorXd& x) const;
   /// gradient += that of energy(), all vertices.
   void add_gradient(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const;
-  /// K += the positive semi-definite Hessian of pair_hessian() on the vertices of K, which must come first.
-  void add_stiffness(const Eigen::VectorXd& x, BlockMatrix& K) const;
+  /// K += the Hessians of the pairs on the vertices of K, which must come first.
+  void add_stiffness(const Eigen::VectorXd& x, ContactHessian kind, BlockMatrix& K) const;
   /// Largest part of the move dx, at most 1, that leaves every pair half its distance.
   double safe_fraction(const Eigen::VectorXd& x, const Eigen::VectorXd& dx) const;
   ContactReport report(const Eigen::VectorXd& x) const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/error.hpp"
 
@@ -19,13 +20,13 @@ double largest_move(const Eigen::VectorXd& dz)
   return most;
 }
 
-/// Factorise; a singular matrix is not positive definite either. Conjugate gradients find out later.
-bool is_positive_definite(LinearSolver& solver, const BlockMatrix& K)
+/// Factorise; a singular matrix counts as one with a negative pivot. Conjugate gradients find out later.
+std::optional<int> negative_pivots(LinearSolver& solver, const BlockMatrix& K)
 {
   try {
-    return solver.factorise(K).negative_pivots.value_or(0) == 0;
+    return solver.factorise(K).negative_pivots;
   } catch (const RunError&) {
-    return false;
+    return 1;
   }
 }
 
@@ -95,22 +96,24 @@ Eigen::VectorXd ContactNewton::residual(const SmoothBalance& balance, const Eige
   return r;
 }
 
-/// Folds and buckling make the tangent indefinite; inertia of a shorter step makes it positive again.
+/// Folds and buckling make the tangent indefinite; inertia of a shorter step, or viscosity, makes it positive again.
 void ContactNewton::factorise_positive(const SmoothBalance& balance, NewtonReport& report)
 {
-  constexpr int most_shifts = 8;
-  double inertia = balance.inertia;
-  for (int shift = 0; shift <= most_shifts; ++shift) {
+  double resistance = 1;
+  for (int shift = 0; shift <= policy_.most_shifts; ++shift) {
     ++report.factorisations;
-    if (is_positive_definite(*solver_, *K_))
+    const std::optional<int> negative = negative_pivots(*solver_, *K_);
+    if (shift == 0)
+      report.negative_pivots = negative;
+    if (negative.value_or(0) == 0)
       return;
     smooth_.set_zero();
-    shell_.add_mass(2 * inertia, smooth_);
+    balance.add_resistance((policy_.shift_ratio - 1) * resistance, smooth_);
     shell_.supports().decouple(smooth_);
     K_->add(1, smooth_);
-    inertia *= 3;
+    resistance *= policy_.shift_ratio;
   }
-  fail_run("no amount of inertia makes the tangent positive definite");
+  fail_run("no amount of inertia or viscosity makes the tangent positive definite");
 }
 
 Eigen::VectorXd ContactNewton::increment(const SmoothBalance& balance, const Eigen::VectorXd& z,
@@ -125,7 +128,7 @@ Eigen::VectorXd ContactNewton::increment(const SmoothBalance& balance, const Eig
   balance.tangent(shell_part(z), smooth_);
   K_->set_zero();
   K_->add(1, smooth_);
-  contact_.add_stiffness(z, *K_);
+  contact_.add_stiffness(z, policy_.hessian, *K_);
   shell_.supports().decouple(*K_);
   factorise_positive(balance, report);
   Eigen::VectorXd dx = solver_->solve(r);
@@ -204,7 +207,7 @@ ContactNewton::Result ContactNewton::solve(const SmoothBalance& balance, const E
     if (!move.carries)
       fraction = decreasing_fraction(balance, z, move.direction, r, fraction);
     z += fraction * move.direction;
-    if (!move.carries && fraction == 1 && report.increment <= policy_.round_off) {
+    if (!move.carries && report.increment <= policy_.round_off) {
       report.stopped_at_round_off = true;
       return result;
     }

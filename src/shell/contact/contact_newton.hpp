@@ -14,14 +14,15 @@
 namespace luff::shell {
 
 /// The balance of a step without contact: other_forces(x) = elastic_force(x), as functions of the positions x of the
-/// shell's vertices at the end of the step.
+/// shell's vertices at the end of the step, in time or of a growing load.
 struct SmoothBalance {
   std::function<double(const Eigen::VectorXd& x)> elastic_energy;
   std::function<Eigen::VectorXd(const Eigen::VectorXd& x)> elastic_force;  ///< gradient of elastic_energy
   /// Loads, the fluid's forces, minus inertia and damping; at most quadratic in x for the merit function to be exact.
   std::function<Eigen::VectorXd(const Eigen::VectorXd& x)> other_forces;
   std::function<void(const Eigen::VectorXd& x, BlockMatrix& K)> tangent;  ///< K = d (elastic - other forces)/d x
-  double inertia = 0;      ///< factor of the mass in the tangent, 1/(beta dt^2)
+  /// K += part * what resists motion, positive definite: inertia in a step in time, a small viscosity in a static one.
+  std::function<void(double part, BlockMatrix& K)> add_resistance;
   double force_scale = 0;  ///< norm of loads and inertia: what a residual is compared with
   double energy = 0;       ///< kinetic and elastic at the start of the step
 };
@@ -30,13 +31,17 @@ struct ContactNewtonPolicy {
   double tolerance = 1e-6;   ///< largest residual of a balanced step, part of the largest of its forces
   double round_off = 1e-12;  ///< increments below this part of the size end the iteration, too
   int max_iterations = 30;
+  int most_shifts = 8;     ///< of a tangent that isn't positive definite, each times
+  double shift_ratio = 3;  ///< the resistance before
+  /// In time the inertia hides what the Gauss-Newton part leaves out.
+  ContactHessian hessian = ContactHessian::GaussNewton;
 };
 
 /// Minimises Phi = W + contact energy - work of all other forces, whose gradient is the residual of the step, starting
 /// from and passing through configurations without crossings only (\cite li_2020_incremental):
 ///
 /// - every move leaves every pair half its distance (Contact::safe_fraction);
-/// - a tangent that isn't positive definite gets more inertia, three times each, until it is;
+/// - a tangent that isn't positive definite gets more resistance, shift_ratio times each, until it is;
 /// - a move is halved until Phi decreases. The work of the other forces is integrated along the move by Simpson's
 ///   rule: exact for inertia, damping and follower pressure, for which it is p (V(y) - V(x)) and the work on the rims;
 /// - supports and rigid bodies that move are carried to their places together with the Newton steps, as far as is safe.

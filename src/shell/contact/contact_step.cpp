@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact in the steps of a moving shell.
+// Contact in the steps of a shell, in time or of a growing load.
 #include "shell/contact/contact_step.hpp"
 
 #include <utility>

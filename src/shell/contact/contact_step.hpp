@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact in the steps of a moving shell.
+// Contact in the steps of a shell, in time or of a growing load.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,8 @@ namespace luff::shell {
 struct ContactOptions {
   ContactLaw law;
   std::vector<ContactSheet> bodies{};  ///< rigid, as they are at the start
-  /// Coordinates of all the bodies' vertices at time t, 3m numbers; not needed without bodies.
+  /// Coordinates of all the bodies' vertices at time t, 3m numbers; not needed without bodies. Of statics t is the load
+  /// factor.
   std::function<Eigen::VectorXd(double t)> body_positions{};
   ContactNewtonPolicy newton{};
 };

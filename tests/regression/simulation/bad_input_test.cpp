@@ -176,6 +176,25 @@ TEST(BadInput, AStaticShellThatCanMoveRigidlyIsRefused)
   expect_refusal(folder, {"case.toml:4: shell 'strip' can move as a rigid body", "add a support"});
 }
 
+TEST(BadInput, ContactOnAPathOrWithDampingIsRefused)
+{
+  const WorkFolder folder;
+  folder.write("case.toml", changed(pressed_strips, "\"static\"", "\"arc-length\""));
+  expect_refusal(folder, {"contact", "`structure.analysis = \"dynamic\"` or `\"static\"`"});
+  folder.write("case.toml", changed(pressed_strips, "steps = 4\n", "steps = 4\nstabilisation = \"damping\"\n"));
+  expect_refusal(folder, {"case.toml:5: structure.stabilisation", "must be \"none\" with [contact]"});
+}
+
+TEST(BadInput, AShellThatOnlyContactHoldsIsRefused)
+{
+  const WorkFolder folder;
+  folder.write(
+      "case.toml",
+      changed(pressed_strips,
+              "[[shell.support]]\nwhere = { edge = [[0, 0, 0.06], [0, 0.25, 0.06]] }\ntype = \"clamped\"\n", ""));
+  expect_refusal(folder, {"shell 'upper' can move as a rigid body"});
+}
+
 TEST(BadInput, MoreModesThanUnknownsAreRefused)
 {
   const WorkFolder folder;

@@ -309,6 +309,29 @@ TEST(AStructureAlone, IsLoadedToItsEquilibriumInAStaticRun)
   EXPECT_NEAR(end.column("displacement_z [length]").back(), deflection, 0.05 * deflection);
 }
 
+TEST(AStructureAlone, PressesShellsAgainstEachOtherAndABodyInAStaticRun)
+{
+  const WorkFolder folder;
+  run_well(folder, pressed_strips);
+  const auto out = folder.path() / "out";
+  const nlohmann::json contact = read_summary(out)["contact"];
+  EXPECT_GT(contact["most_pairs"], 5);
+  EXPECT_EQ(contact["crossings"], 0);
+  EXPECT_GT(contact["smallest_gap"], 0.3 * 0.04);
+  EXPECT_LT(contact["smallest_gap"], 0.04);
+  // The load reaches the lower strip through the upper one, the plate keeps it up.
+  const double upper = read_table(out / "probe-upper.csv").column("displacement_z [length]").back();
+  const double lower = read_table(out / "probe-lower.csv").column("displacement_z [length]").back();
+  EXPECT_LT(upper, -0.01);
+  EXPECT_GT(upper, -0.05) << "alone it would sink by a quarter of its length";
+  EXPECT_GT(0.06 + upper - lower, 0.3 * 0.04) << "the upper one is above";
+  EXPECT_LT(0.06 + upper - lower, 0.045);
+  EXPECT_EQ(read_table(out / "steps-lower.csv").column("contact_pairs").back(),
+            read_table(out / "steps-upper.csv").column("contact_pairs").back());
+  for (const char* name : {"shell-lower.pvd", "shell-upper.pvd", "body-plate.pvd"})
+    EXPECT_EQ(read_series(out / name).size(), 5U) << name;
+}
+
 // Turned by a quarter about the clamp's corner and lifted, without load: the end moves rigidly.
 TEST(ARun, OfAStaticAnalysisTakesAShellAlongWithItsClamp)
 {

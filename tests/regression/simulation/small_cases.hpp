@@ -132,6 +132,52 @@ shell = "strip"
 point = [1, 0, 0]
 )toml";
 
+/// Two strips, clamped 0.06 apart, that a load presses together, and a plate that comes up 0.03 from below the lower
+/// one.
+inline const std::string pressed_strips = R"toml(title = "Pressed strips"
+[structure]
+analysis = "static"
+steps = 4
+[contact]
+distance = 0.04
+stiffness = 1.0
+[[shell]]
+name = "lower"
+mesh = { shape = "rectangle", origin = [0, 0, 0], a = [1, 0, 0], b = [0, 0.25, 0], divisions = [8, 2] }
+thickness = 0.05
+density = 1.0
+material = { model = "saint-venant-kirchhoff", young = 1000.0, poisson = 0.0 }
+[[shell.support]]
+where = { edge = [[0, 0, 0], [0, 0.25, 0]] }
+type = "clamped"
+[[shell]]
+name = "upper"
+mesh = { shape = "rectangle", origin = [0, 0, 0.06], a = [1, 0, 0], b = [0, 0.25, 0], divisions = [7, 2] }
+thickness = 0.05
+density = 1.0
+material = { model = "saint-venant-kirchhoff", young = 1000.0, poisson = 0.0 }
+[[shell.support]]
+where = { edge = [[0, 0, 0.06], [0, 0.25, 0.06]] }
+type = "clamped"
+[[shell.load]]
+where = { edge = [[1, 0, 0.06], [1, 0.25, 0.06]] }
+force = [0.0, 0.0, -0.002]
+[[body]]
+name = "plate"
+mesh = { shape = "rectangle", origin = [0.6, -0.1, -0.06], a = [0.3, 0, 0], b = [0, 0.45, 0], divisions = [1, 1] }
+motion = { type = "prescribed", translation = [0, 0, "0.05*t"] }
+[output]
+shells = { every = 1.0 }
+[[output.probe]]
+name = "lower"
+shell = "lower"
+point = [1, 0.25, 0]
+[[output.probe]]
+name = "upper"
+shell = "upper"
+point = [1, 0.25, 0.06]
+)toml";
+
 /// The text with its only occurrence of `from` replaced.
 inline std::string changed(std::string text, const std::string& from, const std::string& to)
 {

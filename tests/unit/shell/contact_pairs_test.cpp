@@ -212,6 +212,54 @@ TEST(ContactPairEnergy, HasNoNetForceNorMoment)
     }
 }
 
+/// Largest error of the exact Hessian against differences of the gradient, relative.
+double hessian_error(const ContactPair& pair, const Corners& x)
+{
+  constexpr double stiffness = 3, step = 1e-6;
+  const PairHessian exact = exact_pair_hessian(pair, x, stiffness);
+  PairHessian differences;
+  for (int i = 0; i < 12; ++i) {
+    Corners low = x, high = x;
+    low[i / 3][i % 3] -= step;
+    high[i / 3][i % 3] += step;
+    differences.col(i) = (pair_gradient(pair, high, stiffness) - pair_gradient(pair, low, stiffness)) / (2 * step);
+  }
+  return (differences - exact).norm() / exact.norm();
+}
+
+TEST(ExactContactPairHessian, IsTheDerivativeOfTheGradientWhereverTheClosestPointsAre)
+{
+  int free_ends[3] = {};  // pairs of which none, one or two weights are at a bound
+  for (const PairKind kind : both_kinds)
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+      const Corners x = random_corners(seed);
+      const Closest c = closest(kind, x);
+      double least = 1;  // of the weights that aren't zero: differences must not take it to its bound
+      int zero = 0;
+      for (const double w : c.weight) {
+        zero += w == 0 ? 1 : 0;
+        least = w == 0 ? least : std::min(least, std::abs(w));
+      }
+      if (c.distance < 0.05 || least < 1e-3)
+        continue;
+      ++free_ends[zero];
+      EXPECT_LT(hessian_error(pair_of(kind, x, 2 * c.distance), x), 1e-5) << "seed " << seed;
+    }
+  for (const int n : free_ends)
+    EXPECT_GT(n, 20);
+}
+
+TEST(ExactContactPairHessian, IncludesTheMollifierOfNearlyParallelEdges)
+{
+  for (const double angle : {0.02, 0.1, 0.2}) {
+    const Corners x{Vec3(0, 0, 0), Vec3(1, 0.1, 0), Vec3(-0.1, 0.1 * angle, 0.3),
+                    Vec3(1.1, 0.11 + 1.1 * angle, 0.3 + 0.2 * angle)};
+    const ContactPair pair = pair_of(PairKind::EdgeEdge, x, 0.6);
+    ASSERT_LT((x[1] - x[0]).cross(x[3] - x[2]).squaredNorm(), pair.parallel);
+    EXPECT_LT(hessian_error(pair, x), 1e-5) << angle;
+  }
+}
+
 TEST(ContactPairHessian, IsSymmetricAndPositiveSemiDefinite)
 {
   for (const PairKind kind : both_kinds)

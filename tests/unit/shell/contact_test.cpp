@@ -152,7 +152,7 @@ TEST(Contact, StiffnessActsOnDeformableVerticesOnlyAndIsPositive)
   for (int v = 0; v < n; ++v)
     groups[0].push_back(v);
   BlockMatrix K(std::make_shared<BlockPattern>(couple(n, groups)));
-  contact.add_stiffness(x, K);
+  contact.add_stiffness(x, ContactHessian::GaussNewton, K);
   EXPECT_GT(K.dense().norm(), 0);
   EXPECT_LT((K.dense() - K.dense().transpose()).norm(), 1e-12 * K.dense().norm());
   const Eigen::VectorXd u = test::random_vector(3 * n, 4);

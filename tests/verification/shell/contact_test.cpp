@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "shell/dynamics.hpp"
+#include "shell/statics.hpp"
 #include "support/shells.hpp"
 
 namespace luff::shell {
@@ -281,6 +282,118 @@ TEST(ShellContact, GoesOnFromACheckpointWithTheSameBits)
   }
   EXPECT_EQ(dynamics.accepted().x, again.accepted().x);
   EXPECT_EQ(dynamics.ledger().contact, again.ledger().contact);
+}
+
+StaticOptions statics_with(std::optional<ContactOptions> contact, int steps)
+{
+  StaticOptions options;
+  options.steps = steps;
+  options.time = 1;
+  options.fold_limit = 180;
+  options.contact = std::move(contact);
+  return options;
+}
+
+/// The worst of all equilibria on the way, and the last.
+struct Stills {
+  StaticStep last;
+  int crossings = 0;
+  int most_pairs = 0;
+  double smallest_gap = 1;
+  int iterations = 0;
+};
+
+Stills load_up(const Shell& shell, const std::vector<Load>& loads, const StaticOptions& options)
+{
+  Stills stills;
+  stills.last = solve_static(shell, loads, options, [&](const StaticStep& step) {
+    stills.iterations += step.iterations;
+    if (!step.contact)
+      return;
+    EXPECT_EQ(step.report.negative_pivots, 0) << "the equilibrium is stable";
+    stills.crossings += step.contact->crossings;
+    stills.most_pairs = std::max(stills.most_pairs, step.contact->report.active_pairs);
+    stills.smallest_gap = std::min(stills.smallest_gap, step.contact->report.smallest_gap);
+  });
+  return stills;
+}
+
+// Loads whose direction stays: one that follows free edges has no potential, and the tangent leaves a part of it out.
+
+TEST(StaticContact, PressesTwoLeafletsTogetherToWhereTheirDampedMotionEnds)
+{
+  const Leaflets leaflets;
+  const std::vector<Load> loads{Traction{{}, [](const Vec3& X, double t) -> Vec3 {
+                                           return {0, std::copysign(50 * std::min(1.0, t / 0.02), -X.y()), 0};
+                                         }}};
+  const Stills stills = load_up(leaflets.shell, loads, statics_with(ContactOptions{.law = law}, 10));
+  std::printf("  static: %d iterations, %d pairs, gap %.3g\n", stills.iterations, stills.most_pairs,
+              stills.smallest_gap);
+  EXPECT_EQ(stills.crossings, 0);
+  EXPECT_GT(stills.most_pairs, 50);
+  EXPECT_LT(stills.iterations, 20 * 10);
+  Dynamics dynamics(leaflets.shell, loads, options_with(ContactOptions{.law = law}));
+  march(dynamics, 1e-3, 0.08);
+  march(dynamics, 1e-2, 1.5);
+  const double apart = (dynamics.accepted().x - stills.last.positions).lpNorm<Eigen::Infinity>();
+  std::printf("  %.3g of the thickness apart, speed %.3g\n", apart / thickness,
+              dynamics.accepted().v.lpNorm<Eigen::Infinity>());
+  EXPECT_LT(apart, 1e-3 * thickness);
+}
+
+TEST(StaticContact, LaysAStripOnItself)
+{
+  const Hairpin pin;
+  const std::vector<Load> loads{Traction{{}, [](const Vec3& X, double) -> Vec3 {
+                                           return {0, 0, X.z() > 0.003 ? -20.0 : 0.0};
+                                         }}};
+  const Stills stills = load_up(pin.shell, loads, statics_with(ContactOptions{.law = law}, 10));
+  std::printf("  static: %d iterations, %d pairs, gap %.3g\n", stills.iterations, stills.most_pairs,
+              stills.smallest_gap);
+  EXPECT_EQ(stills.crossings, 0);
+  EXPECT_GT(stills.most_pairs, 15);
+
+  StaticOptions unaware = statics_with(std::nullopt, 10);
+  unaware.stabilisation = Stabilisation::Damping;
+  const ContactPieces pieces(std::vector<ContactSheet>{{"pin", pin.mesh, true}});
+  int most = 0;
+  solve_static(pin.shell, loads, unaware,
+               [&](const StaticStep& step) { most = std::max(most, crossings(pieces, step.positions, true).count); });
+  EXPECT_GT(most, 0) << "without contact it passes through itself";
+}
+
+TEST(StaticContact, BendsAStripOverABodyThatComesUpWithTheLoad)
+{
+  const surface::TriangleMesh mesh = test::sheet(0.04, 0.01, 16, 4);
+  const Shell shell(mesh, soft(),
+                    {{.kind = SupportKind::Clamped,
+                      .vertices = test::vertices_where(mesh, [](const Vec3& X) { return X.x() == 0; })}},
+                    "strip");
+  const surface::TriangleMesh plate = surface::rectangle(
+      {.origin = Vec3(0.03, -0.005, -0.002), .a = Vec3(0.02, 0, 0), .b = Vec3(0, 0.02, 0), .divisions = {1, 1}});
+  ContactOptions contact{.law = law, .bodies = {{"plate", plate, false}}};
+  contact.body_positions = [plate](double factor) {
+    Eigen::VectorXd x = surface::interleaved(plate.vertices);
+    for (Eigen::Index v = 0; v < x.size() / 3; ++v)
+      x[3 * v + 2] += 0.012 * factor;
+    return x;
+  };
+  const Stills stills = load_up(shell, {}, statics_with(contact, 6));
+  std::printf("  static: %d iterations, %d pairs, gap %.3g\n", stills.iterations, stills.most_pairs,
+              stills.smallest_gap);
+  EXPECT_EQ(stills.crossings, 0);
+  EXPECT_GT(stills.most_pairs, 3);
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (mesh.vertices[v].x() > 0.035)
+      EXPECT_GT(stills.last.positions[3 * v + 2], 0.01) << "above the plate";
+}
+
+TEST(StaticContact, RefusesDampingBesideIt)
+{
+  const Hairpin pin;
+  StaticOptions options = statics_with(ContactOptions{.law = law}, 1);
+  options.stabilisation = Stabilisation::Damping;
+  EXPECT_THROW(solve_static(pin.shell, {}, options), InputError);
 }
 
 }  // namespace
