@@ -2,6 +2,7 @@
 // A closed neo-Hookean balloon under a pressure that follows it, against the theory of thin membranes.
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -38,6 +39,16 @@ surface::TriangleMesh octasphere(int levels)
   return mesh;
 }
 
+/// Vertices moved at random by up to a quarter of the mesh's spacing, all but the first six, which supports hold.
+surface::TriangleMesh shuffled(surface::TriangleMesh mesh)
+{
+  const double spacing = std::sqrt(4 * std::numbers::pi / mesh.n_vertices());
+  const Eigen::VectorXd moves = test::random_vector(3 * mesh.n_vertices(), 11);
+  for (int v = 6; v < mesh.n_vertices(); ++v)
+    mesh.vertices[v] = (mesh.vertices[v] + 0.25 * spacing * Vec3(moves.segment<3>(3 * v))).normalized();
+  return mesh;
+}
+
 double volume(const surface::TriangleMesh& mesh, const Eigen::VectorXd& x)
 {
   double sum = 0;
@@ -60,9 +71,8 @@ struct Inflated {
   NewtonReport report;
 };
 
-Inflated inflate(int levels, double lambda)
+Inflated inflate(const surface::TriangleMesh& mesh, double lambda)
 {
-  const surface::TriangleMesh mesh = octasphere(levels);
   const Shell shell(mesh, {.thickness = thickness, .density = 1, .material = NeoHookean{.shear_modulus = mu}},
                     no_rigid_motion());
   const double pressure = 2 * mu * thickness * (1 / lambda - std::pow(lambda, -7));
@@ -73,7 +83,7 @@ Inflated inflate(int levels, double lambda)
 
 TEST(Balloon, InflatesAsMembraneTheorySays)
 {
-  const double coarse = inflate(3, 1.1).stretch, fine = inflate(4, 1.1).stretch;
+  const double coarse = inflate(octasphere(3), 1.1).stretch, fine = inflate(octasphere(4), 1.1).stretch;
   std::printf("  lambda = 1.1: %.5f (512 triangles), %.5f (2048)\n", coarse, fine);
   EXPECT_NEAR(fine, 1.1, 5e-4);
   EXPECT_GT(std::log2((coarse - 1.1) / (fine - 1.1)), 1.8) << "second order";
@@ -81,10 +91,21 @@ TEST(Balloon, InflatesAsMembraneTheorySays)
 
 TEST(Balloon, InflatesCloseToTheLimitPoint)
 {
-  const double coarse = inflate(3, 1.3).stretch, fine = inflate(4, 1.3).stretch;
+  const double coarse = inflate(octasphere(3), 1.3).stretch, fine = inflate(octasphere(4), 1.3).stretch;
   std::printf("  lambda = 1.3: %.5f (512 triangles), %.5f (2048)\n", coarse, fine);
   EXPECT_NEAR(fine, 1.3, 0.006);
   EXPECT_GT(std::log2((coarse - 1.3) / (fine - 1.3)), 1.7);
+}
+
+TEST(Balloon, OfAnIrregularMeshInflatesAsWell)
+{
+  for (const double lambda : {1.1, 1.3}) {
+    const double coarse = inflate(shuffled(octasphere(3)), lambda).stretch;
+    const double fine = inflate(shuffled(octasphere(4)), lambda).stretch;
+    std::printf("  lambda = %.1f, irregular: %.5f (512 triangles), %.5f (2048)\n", lambda, coarse, fine);
+    EXPECT_NEAR(fine, lambda, lambda == 1.1 ? 7e-4 : 0.009);
+    EXPECT_GT(std::log2((coarse - lambda) / (fine - lambda)), 1.7);
+  }
 }
 
 }  // namespace
