@@ -203,4 +203,24 @@ void LoadsAtTime::subtract_stiffness(const Eigen::VectorXd& x, double factor, Bl
   }
 }
 
+/// With d f_i / d x_j = p/6 [d_j]x for every i, half of it less half of its transpose: p/12 (sum_j d_j x v_j + d_k x
+/// sum_j v_j) at corner k.
+Eigen::VectorXd LoadsAtTime::skew_stiffness_times(const Eigen::VectorXd& x, const Eigen::VectorXd& v) const
+{
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(x.size());
+  for (const auto& [corner, pressure] : pressed_) {
+    std::array<Vec3, 3> opposite;
+    Vec3 turned = Vec3::Zero(), sum = Vec3::Zero();
+    for (int j = 0; j < 3; ++j) {
+      opposite[j] = x.segment<3>(3 * corner[(j + 2) % 3]) - x.segment<3>(3 * corner[(j + 1) % 3]);
+      const Vec3 v_j = v.segment<3>(3 * corner[j]);
+      turned += opposite[j].cross(v_j);
+      sum += v_j;
+    }
+    for (int k = 0; k < 3; ++k)
+      result.segment<3>(3 * corner[k]) += pressure / 12 * (turned + opposite[k].cross(sum));
+  }
+  return result;
+}
+
 }  // namespace luff::shell

@@ -69,6 +69,10 @@ class LoadsAtTime {
   /// K -= factor * the symmetric part of d force / d x. What it leaves out vanishes for a uniform pressure on a shell
   /// without free edges.
   void subtract_stiffness(const Eigen::VectorXd& x, double factor, BlockMatrix& K) const;
+  /// Whether that may leave something out.
+  bool has_skew_stiffness() const { return !pressed_.empty(); }
+  /// The skew part of d force / d x, times v.
+  Eigen::VectorXd skew_stiffness_times(const Eigen::VectorXd& x, const Eigen::VectorXd& v) const;
 
  private:
   friend class Loads;

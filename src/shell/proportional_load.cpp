@@ -44,6 +44,15 @@ void ProportionalLoad::add_tangent(const Eigen::VectorXd& x, double factor, Bloc
   loads_.subtract_stiffness(x, factor, K);
 }
 
+SkewProduct ProportionalLoad::skew_stiffness(const Eigen::VectorXd& x, double factor) const
+{
+  return [this, x, factor](const Eigen::VectorXd& v) {
+    Eigen::VectorXd product = factor * loads_.skew_stiffness_times(x, v);
+    shell_.clear_held(product);
+    return product;
+  };
+}
+
 /// The work along a straight line by Simpson's rule, exact for dead loads and for pressure, which is quadratic in x.
 double ProportionalLoad::released_energy(const Eigen::VectorXd& x, const Eigen::VectorXd& y, double factor) const
 {

@@ -8,6 +8,7 @@
 
 #include "shell/loads.hpp"
 #include "shell/newton.hpp"
+#include "shell/skew_solve.hpp"
 
 namespace luff::shell {
 
@@ -30,6 +31,10 @@ class ProportionalLoad {
   void place_supports(double factor, Eigen::VectorXd& x) const;
   /// K += -d residual / d x
   void add_tangent(const Eigen::VectorXd& x, double factor, BlockMatrix& K) const;
+  /// Whether the tangent leaves out a skew part, of follower pressure.
+  bool has_skew_stiffness() const { return loads_.has_skew_stiffness(); }
+  /// That part times v: -d residual / d x is the tangent less it.
+  SkewProduct skew_stiffness(const Eigen::VectorXd& x, double factor) const;
   /// Energy that the straight move from x to y sets free, factor * work of the loads - change of the elastic energy.
   double released_energy(const Eigen::VectorXd& x, const Eigen::VectorXd& y, double factor) const;
   /// The equations of Newton's method. Keeps references to this and to the factor.

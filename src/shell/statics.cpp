@@ -113,9 +113,10 @@ class LoadPath {
   {
     tangent_.valid = false;
     Equilibrium equilibrium = problem_.equilibrium(factor);
-    equilibrium.increment = [&](const Eigen::VectorXd&, const Eigen::VectorXd& r, LinearSolver& solver) {
+    equilibrium.increment = [&](const Eigen::VectorXd& y, const Eigen::VectorXd& r, LinearSolver& solver) {
       limit_met_ = limit_met_ || tangent_.factorisation.negative_pivots.value_or(0) > 0;
-      return solver.solve(r);
+      return problem_.has_skew_stiffness() ? solve_with_skew(solver, problem_.skew_stiffness(y, factor), r)
+                                           : solver.solve(r);
     };
     now_.report = newton(problem_.shell(), equilibrium, options_.newton, tangent_, x, when(factor));
     now_.iterations += now_.report.iterations;
@@ -173,6 +174,8 @@ class LoadPath {
       return factor * problem_.load(x);
     };
     balance.tangent = [this, factor](const Eigen::VectorXd& x, BlockMatrix& K) { problem_.add_tangent(x, factor, K); };
+    if (problem_.has_skew_stiffness())
+      balance.skew = [this, factor](const Eigen::VectorXd& x) { return problem_.skew_stiffness(x, factor); };
     balance.add_resistance = [this](double part, BlockMatrix& K) { K.add_diagonal(part * viscosity_, areas_); };
     balance.force_scale = factor * problem_.load(now_.positions).norm();
     balance.energy = problem_.elastic_energy(now_.positions, now_.load_factor);

@@ -131,7 +131,7 @@ Eigen::VectorXd ContactNewton::increment(const SmoothBalance& balance, const Eig
   contact_.add_stiffness(z, policy_.hessian, *K_);
   shell_.supports().decouple(*K_);
   factorise_positive(balance, report);
-  Eigen::VectorXd dx = solver_->solve(r);
+  Eigen::VectorXd dx = balance.skew ? solve_with_skew(*solver_, balance.skew(shell_part(z)), r) : solver_->solve(r);
   const double longest = largest_move(dx);
   report.increment = longest / shell_.size();
   report.increments.push_back(report.increment);

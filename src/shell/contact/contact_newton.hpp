@@ -10,6 +10,7 @@
 
 #include "shell/contact/contact.hpp"
 #include "shell/newton.hpp"
+#include "shell/skew_solve.hpp"
 
 namespace luff::shell {
 
@@ -21,6 +22,8 @@ struct SmoothBalance {
   /// Loads, the fluid's forces, minus inertia and damping; at most quadratic in x for the merit function to be exact.
   std::function<Eigen::VectorXd(const Eigen::VectorXd& x)> other_forces;
   std::function<void(const Eigen::VectorXd& x, BlockMatrix& K)> tangent;  ///< K = d (elastic - other forces)/d x
+  /// What the tangent leaves out, a skew matrix: K - skew is the derivative. None: nothing.
+  std::function<SkewProduct(const Eigen::VectorXd& x)> skew{};
   /// K += part * what resists motion, positive definite: inertia in a step in time, a small viscosity in a static one.
   std::function<void(double part, BlockMatrix& K)> add_resistance;
   double force_scale = 0;  ///< norm of loads and inertia: what a residual is compared with

@@ -160,6 +160,9 @@ TEST(Loads, PressureStiffnessIsTheSymmetricPartOfTheDerivative)
   loads.subtract_stiffness(x, 1, K);
   EXPECT_LT((K.dense() + 0.5 * (derivative + derivative.transpose())).norm(), 1e-11 * derivative.norm());
   EXPECT_GT((derivative - derivative.transpose()).norm(), 0.1 * derivative.norm());
+  const Eigen::VectorXd v = test::random_vector(x.size(), 2);
+  EXPECT_LT((loads.skew_stiffness_times(x, v) - 0.5 * (derivative - derivative.transpose()) * v).norm(),
+            1e-11 * (derivative * v).norm());
 }
 
 TEST(Loads, NumbersOutOfRangeAreRefused)
