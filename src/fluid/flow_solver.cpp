@@ -57,6 +57,7 @@ FlowSolver::FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries b
     cross_terms_.emplace(grid);
   if (options_.immersed == ImmersedScheme::Curvib) {
     wall_nodes_.emplace(grid);
+    links_.hold_within_step();
     given_ = make_field3<double>(grid.owned());
   }
   if (options_.scheme == TimeScheme::NewtonKrylov) {

@@ -35,6 +35,14 @@ namespace luff::immersed {
   return grid.area(axis, i, j, k) / (0.5 * (m->G[axis](stepped(face, axis, -1)) + m->G[axis](face)));
 }
 
+/// From the centre below the low face of a cell to that above.
+[[nodiscard]] inline Vec3 link_vector(const grid::Grid& grid, int axis, const Index3& face)
+{
+  if (grid.kind() != grid::Kind::Curvilinear)
+    return grid.distance(axis, face[axis]) * Vec3::Unit(axis);
+  return grid.centre(face) - grid.centre(stepped(face, axis, -1));
+}
+
 /// Width of a cell across its faces normal to an axis: V/|S_a| on curvilinear grids, S_a at the centre.
 [[nodiscard]] inline double width_across(const grid::Grid& grid, int axis, const Index3& cell)
 {

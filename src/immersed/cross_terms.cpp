@@ -80,7 +80,7 @@ void CrossTerms::update(const CutLinks& links, const View3<const double>& u, con
   for (const CutCell& cut : links.cells()) {
     std::array<Vec3, 3> change{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     for (int b = 0; b < 3; ++b) {
-      const CutAxis along = cut_axis(grid_, links, cut, b);
+      const CutAxis along = cut_axis(grid_, links, cut, b, time);
       if (!along.any_cut())
         continue;
       const auto [low, high] = velocities_beside(links, cut, b, along, u, time);

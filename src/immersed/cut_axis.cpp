@@ -8,7 +8,7 @@
 
 namespace luff::immersed {
 
-CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis)
+CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis, const StageTime& time)
 {
   CutAxis result;
   for (int side = 0; side < 2; ++side) {
@@ -19,7 +19,7 @@ CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& c
       continue;
     const CutFace& face = links.faces()[f];
     result.hit[side] = side == 1 ? face.first : face.last;
-    const double theta = links.crossings()[result.hit[side]].theta;
+    const double theta = links.theta(result.hit[side], time);
     result.theta[side] = side == 1 ? theta : 1.0 - theta;
     result.length[side] *= std::max(result.theta[side], theta_min);
   }

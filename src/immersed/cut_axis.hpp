@@ -31,7 +31,9 @@ struct CutAxis {
   }
 };
 
-[[nodiscard]] CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis);
+/// The links with the sheet where it is at a time of the step.
+[[nodiscard]] CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis,
+                               const StageTime& time);
 
 /// The velocities beside a cut cell along an axis: the neighbour's, or that of the sheet.
 [[nodiscard]] std::array<Vec3, 2> velocities_beside(const CutLinks& links, const CutCell& cut, int axis,

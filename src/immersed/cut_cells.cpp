@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "immersed/cut_cells.hpp"
 
+#include <algorithm>
+
 #include <Eigen/LU>
 
 #include "immersed/cell_metric.hpp"
@@ -67,18 +69,19 @@ CutCellTerms momentum_terms(const grid::Grid& grid, const CutLinks& links, const
   CutCellTerms terms{Vec3::Zero(), Vec3::Zero(), 0.0};
   const Vec3 u_here = at(u, cut.cell);
   for (int axis = 0; axis < 3; ++axis) {
-    const CutAxis axis_link = cut_axis(grid, links, cut, axis);
-    const std::array<Vec3, 2> u_beside = velocities_beside(links, cut, axis, axis_link, u, now);
+    const CutAxis along_now = cut_axis(grid, links, cut, axis, now);
+    const CutAxis along_then = cut_axis(grid, links, cut, axis, then);
+    const std::array<Vec3, 2> u_beside = velocities_beside(links, cut, axis, along_now, u, now);
     for (int side = 0; side < 2; ++side) {
-      const double v = axis_link.exchange(side, viscosity);
-      if (axis_link.cut(side)) {
+      if (along_now.cut(side)) {
+        const double v = along_then.exchange(side, viscosity);
         terms.wall_rate += v;
-        terms.wall_source += v * links.velocity(axis_link.hit[side], then);
+        terms.wall_source += v * links.velocity(along_then.hit[side], then);
       } else {
-        terms.explicit_rate += v * (u_beside[side] - u_here);
+        terms.explicit_rate += along_now.exchange(side, viscosity) * (u_beside[side] - u_here);
       }
     }
-    terms.explicit_rate -= speed_across(grid, u_here, axis, cut.cell) / (axis_link.length[0] + axis_link.length[1]) *
+    terms.explicit_rate -= speed_across(grid, u_here, axis, cut.cell) / (along_now.length[0] + along_now.length[1]) *
                            (u_beside[1] - u_beside[0]);
   }
   return terms;
@@ -89,7 +92,7 @@ Vec3 wall_source(const grid::Grid& grid, const CutLinks& links, const CutCell& c
 {
   Vec3 source = Vec3::Zero();
   for (int axis = 0; axis < 3; ++axis) {
-    const CutAxis axis_link = cut_axis(grid, links, cut, axis);
+    const CutAxis axis_link = cut_axis(grid, links, cut, axis, then);
     for (int side = 0; side < 2; ++side)
       if (axis_link.cut(side))
         source += axis_link.exchange(side, viscosity) * links.velocity(axis_link.hit[side], then);
@@ -123,7 +126,7 @@ void recover_velocity(const grid::Grid& grid, const CutLinks& links, const View3
     Mat3 S = Mat3::Identity();
     Vec3 flux;
     for (int axis = 0; axis < 3; ++axis) {
-      const CutAxis along = cut_axis(grid, links, cut, axis);
+      const CutAxis along = cut_axis(grid, links, cut, axis, time);
       std::array<double, 2> value{};
       std::array<double, 2> distance{};
       std::array<Vec3, 2> normal;
@@ -132,7 +135,7 @@ void recover_velocity(const grid::Grid& grid, const CutLinks& links, const View3
         normal[side] = face_normal(grid, axis, face);
         if (along.cut(side)) {
           value[side] = links.velocity(along.hit[side], time).dot(normal[side]);
-          distance[side] = along.theta[side] * along.distance[side];
+          distance[side] = std::max(along.theta[side], 0.0) * along.distance[side];
         } else {
           value[side] = U[axis](face) / grid.area(axis, face[0], face[1], face[2]);
           distance[side] = 0.5 * along.width;

@@ -11,6 +11,9 @@ namespace luff::immersed {
 
 namespace {
 
+/// A hit on a link that the sheet grazes may run along it any distance.
+constexpr double largest_drift = 1.0;
+
 /// Value of a vertex field at a point of a triangle.
 Vec3 interpolate(std::span<const Vec3> field, const std::array<int, 3>& triangle, const std::array<double, 3>& weights)
 {
@@ -56,6 +59,7 @@ void CutLinks::interpolate_prediction(const SheetMotion& predicted)
   body_of_hit_.assign(n, -1);
   places_.resize(n);
   normals_.resize(n);
+  drift_.resize(n);
   predicted_velocity_.resize(n);
   predicted_acceleration_.resize(n);
   for (std::size_t q = 0; q < n; ++q) {
@@ -70,8 +74,21 @@ void CutLinks::interpolate_prediction(const SheetMotion& predicted)
       predicted_velocity_[q] = predicted_body_velocity_[body].at(places_[q]);
       predicted_acceleration_[q] = predicted_body_acceleration_[body].at(places_[q]);
     }
+    drift_[q] = drift(static_cast<int>(q));
   }
   velocity_ = predicted_velocity_;
+}
+
+/// dt u_b . n/(n . link), u_b the predicted velocity in the middle of the step: the part of its link that a hit passes.
+double CutLinks::drift(int hit) const
+{
+  if (held_)
+    return 0.0;
+  const Crossing& at = crossings_[hit];
+  const double along = normals_[hit].dot(link_vector(grid_, at.axis, at.cell));
+  const double passed = dt_ * normals_[hit].dot(velocity(hit, {0.5, SheetVelocity::Predicted}));
+  return std::abs(passed) < largest_drift * std::abs(along) ? passed / along
+                                                            : std::copysign(largest_drift, passed * along);
 }
 
 /// The closed body that a triangle bounds, or -1.

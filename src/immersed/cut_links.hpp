@@ -84,6 +84,9 @@ class CutLinks {
  public:
   explicit CutLinks(const grid::Grid& grid);
 
+  /// From now on all stages see the sheet where it is at the end of the step, as the nodes of the scheme curvib do.
+  void hold_within_step() { held_ = true; }
+
   /// Finds crossings, cut faces and cells, and starts the flux offsets from the accepted fluxes:
   ///
   ///   eps = the old offset where the link was cut at t^n, U^n_f/A_f - u_b^0 . e where it was not,  tau = d/speed.
@@ -136,6 +139,13 @@ class CutLinks {
     return static_cast<int>(crossings_.size()) - static_cast<int>(faces_.size());
   }
 
+  /// Where a hit lies on its link at a time of the step, carried along the sheet's normal by its predicted velocity:
+  /// theta(c) = theta - (1-c) dt u_b . n/(n . link).  Before the end of the step it may lie beyond the ends of the
+  /// link.
+  [[nodiscard]] double theta(int hit, const StageTime& time) const
+  {
+    return crossings_[hit].theta - (1.0 - time.fraction) * drift_[hit];
+  }
   /// Velocity of the sheet at a hit.
   [[nodiscard]] Vec3 velocity(int hit, const StageTime& time) const
   {
@@ -159,6 +169,7 @@ class CutLinks {
  private:
   void find_crossings(std::span<const Vec3> positions);
   void interpolate_prediction(const SheetMotion& predicted);
+  [[nodiscard]] double drift(int hit) const;
   void find_faces();
   void find_cells();
   void find_flipped();
@@ -175,6 +186,7 @@ class CutLinks {
   [[nodiscard]] bool was_cut(int axis, const Index3& cell) const { return old_offset(key(axis, cell)) != nullptr; }
 
   const grid::Grid& grid_;
+  bool held_ = false;
   double dt_ = 0.0;
   std::unique_ptr<const LinkTree> tree_;  ///< of curvilinear grids, once there is a sheet
   std::vector<Vec3> positions_;           ///< of the vertices, as are the following
@@ -190,6 +202,7 @@ class CutLinks {
   std::vector<int> body_of_hit_;  ///< -1: not of a closed body
   std::vector<Vec3> places_;      ///< of the hits
   std::vector<Vec3> normals_;
+  std::vector<double> drift_;  ///< of theta over the step
   std::vector<Vec3> predicted_velocity_;
   std::vector<Vec3> predicted_acceleration_;
   std::vector<Vec3> velocity_;

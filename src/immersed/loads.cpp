@@ -63,7 +63,7 @@ Vec3 turning_shear(const CutLinks& links, const LoadFields& fields, int triangle
 
 HitTraction one_sided(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const HitView& view)
 {
-  const CutAxis along = cut_axis(grid, links, view.cut, view.axis);
+  const CutAxis along = cut_axis(grid, links, view.cut, view.axis, {1.0, SheetVelocity::Current});
   const Vec3 out =
       (view.side == 1 ? -1.0 : 1.0) * face_normal(grid, view.axis, stepped(view.cut.cell, view.axis, view.side));
   const double p_here = fields.p(view.cut.cell);

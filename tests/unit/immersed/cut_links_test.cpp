@@ -114,6 +114,29 @@ TEST_F(CutCells, OfALinearFlowThatTheSheetFollowsHaveTheExactConvectionAndNoDiff
   EXPECT_GT(compared, 10);
 }
 
+TEST_F(CutCells, KnowWhereTheSheetWasDuringTheStep)
+{
+  const Vec3 velocity(0.1, -0.25, 0.3);
+  const double dt = 0.02;
+  freeze(moving(tilted, [&](const Vec3&) { return velocity; }), dt);
+  for (const double fraction : {0.0, 0.4}) {
+    surface::Rectangle before = tilted;
+    before.origin -= (1.0 - fraction) * dt * velocity;
+    CutLinks then(grid);
+    then.freeze(moving(before, [&](const Vec3&) { return velocity; }), dt, 1.0, views(std::as_const(U)));
+    int compared = 0;
+    for (std::size_t q = 0; q < links.crossings().size(); ++q)
+      for (const Crossing& hit : then.crossings()) {
+        const Crossing& now = links.crossings()[q];
+        if (hit.axis != now.axis || hit.cell != now.cell)
+          continue;
+        EXPECT_NEAR(links.theta(static_cast<int>(q), {fraction}), hit.theta, 1e-12);
+        ++compared;
+      }
+    EXPECT_GT(compared, 30);
+  }
+}
+
 TEST_F(CutCells, RecoverALinearFlowThatTheSheetFollowsExactly)
 {
   const Profile velocity = [](const Vec3& x) -> Vec3 { return {1.0 + x[0], 0.5 - 2.0 * x[1], x[2]}; };

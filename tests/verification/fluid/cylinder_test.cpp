@@ -79,7 +79,7 @@ TEST_P(CylinderThatSwings, FeelsWhatTheFluidLosesWithoutTheFluidThatIsNotInside)
   }
   std::cout << "  swinging cylinder, h = 0.06: peak " << largest << ", force against momentum: mean difference "
             << sum / 161 << ", rms " << std::sqrt(squares / 161) << "\n";
-  // 3.3 % here, 3.1 and 2.9 % at h = 0.04 and 0.03: it hardly falls, and why is not known (docs/numerics/bodies.md).
+  // 2.8 and 3.9 % here; it falls with h (docs/numerics/bodies.md).
   EXPECT_LE(std::abs(sum / 161), 0.04 * largest);
   EXPECT_LE(std::sqrt(squares / 161), 0.05 * largest);
   EXPECT_LE(flow->largest_divergence, 1e-13);
