@@ -400,9 +400,11 @@ TEST(StaticContact, BendsAStripOverABodyThatComesUpWithTheLoad)
               stills.smallest_gap);
   EXPECT_EQ(stills.crossings, 0);
   EXPECT_GT(stills.most_pairs, 3);
+  double lowest_above_plate = 1;
   for (int v = 0; v < mesh.n_vertices(); ++v)
     if (mesh.vertices[v].x() > 0.035)
-      EXPECT_GT(stills.last.positions[3 * v + 2], 0.01) << "above the plate";
+      lowest_above_plate = std::min(lowest_above_plate, stills.last.positions[3 * v + 2]);
+  EXPECT_GT(lowest_above_plate, 0.01) << "where the plate comes to";
 }
 
 TEST(StaticContact, RefusesDampingBesideIt)
