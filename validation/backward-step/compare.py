@@ -85,10 +85,11 @@ def zeros(points, rising):
 
 
 def positions(file):
-    """X1, and X2, X3 of the eddy on the upper wall if there is one."""
-    upper = shear_along(file, 3)
-    apart = zeros(upper, rising=False)
-    return zeros(shear_along(file, 2), rising=True)[-1:] + (apart[:1] + zeros(upper, rising=True)[-1:] if apart else [])
+    """X1, and X2, X3 of the eddy on the upper wall if there is one: the first zeros from the step on, the corner's eddy passed over."""
+    lower, upper = shear_along(file, 2), shear_along(file, 3)
+    apart = zeros(upper, rising=False)[:1]
+    return zeros([point for point in lower if point[0] > 1.0], rising=True)[:1] + (
+        apart + [x for x in zeros(upper, rising=True) if x > apart[0]][:1] if apart else [])
 
 
 def velocity_along(folder, x_over_h):
