@@ -287,6 +287,41 @@ void BoundaryConditions::add_wall_stress(const View3<const double>& u, const Vie
   }
 }
 
+double BoundaryConditions::diffusive_rate(int axis, const Index3& c) const
+{
+  const double within = grid_.visit([&](const auto& m) {
+    const auto [i, j, k] = c;
+    if constexpr (grid::is_curvilinear<std::remove_cvref_t<decltype(m)>>)
+      return m.G[axis](c);
+    else
+      return grid_.volume(i, j, k) / (grid_.width(axis, c[axis]) * grid_.width(axis, c[axis]));
+  });
+  int sides = 0;
+  double through_sides = 0.0;
+  for (const Side& side : sides_)
+    if (side.axis == axis && side.gradient && side.cells.contains(c)) {
+      ++sides;
+      through_sides += side.gradient->conductance(c);
+    }
+  return sides == 0 ? within : 0.25 * (through_sides + (2 - sides) * within);
+}
+
+double BoundaryConditions::diffusive_rate() const
+{
+  double largest = 0.0;
+  for (const Side& side : sides_) {
+    if (!side.gradient)
+      continue;
+    for_each_side_cell(side, [&](const Index3& c, std::size_t) {
+      double sum = 0.0;
+      for (int axis = 0; axis < 3; ++axis)
+        sum += diffusive_rate(axis, c);
+      largest = std::max(largest, sum / grid_.volume(c[0], c[1], c[2]));
+    });
+  }
+  return grid_.ranks().max(largest);
+}
+
 std::vector<SideStress> BoundaryConditions::stresses(const View3<const double>& u, const View3<const double>& U,
                                                      const View<const double>& p, double viscosity,
                                                      bool walls_only) const

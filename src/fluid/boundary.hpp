@@ -113,6 +113,11 @@ class BoundaryConditions {
   /// Convection keeps u_b on the face.  u with valid halos.
   void add_wall_stress(const View3<const double>& u, const View3<const double>& U, double viscosity, double weight,
                        const View3<double>& rate, const View3<double>& increment) const;
+  /// Largest over the cells beside prescribed velocities of the sum over axes of what counts for the step [1/L^2]:
+  /// times nu dt, the diffusion number there.  Along an axis that ends on one or two such sides a quarter of what the
+  /// cell loses through both faces per its own velocity, over V: 1/h^2 on equal cells, several times that where skewed
+  /// cells meet two sides.  Along others G_aa/V, 1/h^2.
+  [[nodiscard]] double diffusive_rate() const;
   /// Halo of the pressure beyond the domain's sides; on open ones it tells the pressure solver what is given there.
   void fill_pressure(const View<double>& p) const;
   /// U* on the domain's sides; on open ones from the velocity u_old + increment of the cells beside them.
@@ -172,6 +177,7 @@ class BoundaryConditions {
     return inflow_[side.axis][side.end];
   }
   void balance_fluxes();
+  [[nodiscard]] double diffusive_rate(int axis, const Index3& c) const;
   void subtract_side_gradient(const Side& side, const View3<double>& U) const;
   [[nodiscard]] bool prescribed(int axis, const Index3& face) const;
   [[nodiscard]] bool enters_freely(const Side& side) const;

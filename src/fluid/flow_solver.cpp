@@ -40,7 +40,7 @@ FlowSolver::FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries b
       boundary_(grid, std::move(boundaries), options_.viscosity),
       pressure_(std::move(pressure)),
       halo_(grid.ranks()),
-      diffusive_rate_(options_.viscosity * operators::diffusive_rate(grid)),
+      diffusive_rate_(options_.viscosity * std::max(operators::diffusive_rate(grid), boundary_.diffusive_rate())),
       links_(grid),
       balance_(grid),
       state_{make_field3<double>(grid.owned()), make_field3<double>(grid.owned()), Field<double>(grid.owned()),

@@ -162,7 +162,7 @@ std::vector<Complex> Section::developed_flow(Complex lambda) const
           d[a][end] = difference(face, a, end);
           const int next = beside(face, a, end);
           // An edge between two faces is met from both: half of it each time.
-          const double edge = next < 0 ? G[a] : 2.0 / (1.0 / G[a] + 1.0 / metric_[next][a]);
+          const double edge = next < 0 ? G[a] : grid::in_series(G[a], metric_[next][a]);
           if (d[a][end].at_wall)
             add_wall(face, a, end);
           else

@@ -48,6 +48,9 @@ class SideGradient {
   /// A value at the face, from the straight line through the cell beside it and the next one.
   [[nodiscard]] double extrapolated(const View<const double>& p, const Index3& c) const;
 
+  /// What a cell of `cells` loses through its face on the side per its own velocity, -d(S . grad u)/du_P [L].
+  [[nodiscard]] double conductance(const Index3& c) const { return face(c).through[0] * -face(c).normal.near; }
+
   /// S . grad u, S out of the domain, less what the stencils of the momentum equation take for it from the mirrored
   /// halo [L^2/T].
   [[nodiscard]] Vec3 missing_flux(const View3<const double>& u, const View3<const double>& U, const Index3& c) const;

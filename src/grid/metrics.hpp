@@ -97,6 +97,13 @@ LUFF_KERNEL constexpr int symmetric(int a, int b)
   return a == b ? a : a + b + 2;
 }
 
+/// Conductance between the centres of two cells, one half of each after the other: 1/a = (1/G(L) + 1/G(R))/2.  Where
+/// cells only stretch it is A/d, as on straight grids; the arithmetic mean lets too much through where widths jump.
+LUFF_KERNEL constexpr double in_series(double G_L, double G_R)
+{
+  return 2.0 * G_L * G_R / (G_L + G_R);
+}
+
 /// Body-fitted cells, index directions a = 0, 1, 2.  All views are valid on owned cells and one layer of halo; beyond a
 /// side of the domain the halo repeats the tensor and the volume of the cell inside.
 struct Curvilinear {

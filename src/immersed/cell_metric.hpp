@@ -25,14 +25,14 @@ namespace luff::immersed {
 }
 
 /// Distance between the centres beside the low face of a cell, as its gradient flux has it: |S_f|/a_f on curvilinear
-/// grids, a_f = (G_aa(P) + G_aa(N))/2.
+/// grids, a_f from G_aa(P) and G_aa(N) in series.
 [[nodiscard]] inline double distance_across(const grid::Grid& grid, int axis, const Index3& face)
 {
   const grid::Curvilinear* const m = curvilinear_metric(grid);
   if (m == nullptr)
     return grid.distance(axis, face[axis]);
   const auto [i, j, k] = face;
-  return grid.area(axis, i, j, k) / (0.5 * (m->G[axis](stepped(face, axis, -1)) + m->G[axis](face)));
+  return grid.area(axis, i, j, k) / grid::in_series(m->G[axis](stepped(face, axis, -1)), m->G[axis](face));
 }
 
 /// From the centre below the low face of a cell to that above.

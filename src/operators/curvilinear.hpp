@@ -15,7 +15,7 @@ struct Step {
 
 /// Flux conductances of one cell from the metric tensor: net outflow of the gradient flux
 ///
-///   F_f = a_f d_f + (w_a(L) + w_a(R))/2,   a_f = (G_aa(L) + G_aa(R))/2,   w_a = sum_{b != a} G_ab <d_b>,
+///   F_f = a_f d_f + (w_a(L) + w_a(R))/2,   1/a_f = (1/G_aa(L) + 1/G_aa(R))/2,   w_a = sum_{b != a} G_ab <d_b>,
 ///
 /// d_f the difference across the face and <d_b> = (u(+b) - u(-b))/2.  Because the cross terms of a face are the mean of
 /// those of its two cells, their net outflow is sum_a [w_a(+a) - w_a(-a)]/2: twelve neighbours across edges.
@@ -30,8 +30,8 @@ struct GradientStencil {
   {
     using S = Step<a>;
     const View<const double>& G = m.G[a];
-    low[a] = 0.5 * (G(i - S::i, j - S::j, k - S::k) + G(i, j, k));
-    high[a] = 0.5 * (G(i, j, k) + G(i + S::i, j + S::j, k + S::k));
+    low[a] = grid::in_series(G(i - S::i, j - S::j, k - S::k), G(i, j, k));
+    high[a] = grid::in_series(G(i, j, k), G(i + S::i, j + S::j, k + S::k));
     load_cross<a, (a + 1) % 3>(m, i, j, k);
     load_cross<a, (a + 2) % 3>(m, i, j, k);
   }

@@ -51,8 +51,8 @@ LUFF_INLINE_KERNEL void line_coefficients(const Metric& m, int i, int j, int k, 
   if constexpr (grid::is_curvilinear<Metric>) {
     const View<const double>& G = m.G[a];
     inverse_volume = 1.0 / m.V(i, j, k);
-    low = 0.5 * (G(i - S::i, j - S::j, k - S::k) + G(i, j, k));
-    high = 0.5 * (G(i, j, k) + G(i + S::i, j + S::j, k + S::k));
+    low = grid::in_series(G(i - S::i, j - S::j, k - S::k), G(i, j, k));
+    high = grid::in_series(G(i, j, k), G(i + S::i, j + S::j, k + S::k));
   } else {
     const int l = a == 0 ? i : a == 1 ? j : k;
     const double area = m.template area<a>(i, j, k);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "grid/generators/disc_section.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,10 +13,9 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-/// Measured on 49^2 and 101^2 nodes: the smallest largest cosine between grid lines, with rings that grow evenly.
+/// Measured on 49^2 and 101^2 nodes, with rings that grow evenly: grid lines are least skewed.
 constexpr double core_size = 0.64;
 constexpr double equal_angles = 0.3;
-constexpr int winslow_sweeps = 2;
 
 /// The point of the unit circle for the side of the square on which (x, y) lies.
 Vec2 on_circle(double x, double y)
@@ -32,6 +32,20 @@ Vec2 ring_map(double x, double y)
 {
   const double r = std::max(std::abs(x), std::abs(y));
   return (1.0 - r) * core_size * Vec2(x, y) + r * r * on_circle(x, y);
+}
+
+/// Sweeps that round the kinks of the ring map off over the same part of the disc whatever the number of cells, so that
+/// grids are refinements of one smooth map: a Jacobi sweep reaches over cells, s sweeps over sqrt(s) of them.
+int winslow_sweeps(int cells)
+{
+  return std::max(2, cells * cells / 100);
+}
+
+/// Part of Jacobi's correction that a node takes: half of it, and less and less towards the corners of the rim, where
+/// grid lines without a kink would meet under 180 degrees.
+double damping(double x, double y)
+{
+  return 0.5 * (1.0 - std::abs(x * y));
 }
 
 /// One damped Jacobi sweep of  g22 P_xx - 2 g12 P_xy + g11 P_yy = 0,  g the metric of the map, the rim fixed
@@ -51,7 +65,7 @@ std::vector<Vec2> winslow_sweep(const std::vector<Vec2>& P, int n)
       const Vec2 solved =
           (g22 * (at(i + 1, j) + at(i - 1, j)) + g11 * (at(i, j + 1) + at(i, j - 1)) - 0.5 * g12 * cross) /
           (2.0 * (g11 + g22));
-      result[i + j * (n + 1)] = 0.5 * (at(i, j) + solved);
+      result[i + j * (n + 1)] += damping(2.0 * i / n - 1.0, 2.0 * j / n - 1.0) * (solved - at(i, j));
     }
   return result;
 }
@@ -65,7 +79,7 @@ std::vector<Vec2> disc_section(int cells)
   for (int j = 0; j <= cells; ++j)
     for (int i = 0; i <= cells; ++i)
       P.push_back(ring_map(2.0 * i / cells - 1.0, 2.0 * j / cells - 1.0));
-  for (int sweep = 0; sweep < winslow_sweeps; ++sweep)
+  for (int sweep = 0; sweep < winslow_sweeps(cells); ++sweep)
     P = winslow_sweep(P, cells);
   return P;
 }
