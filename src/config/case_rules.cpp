@@ -100,6 +100,50 @@ void state_probe_rules(Schema& s, const Case& options)
   }
 }
 
+/// No two items of a list under [output] share a name.
+template <class Item>
+void state_unique_names(Schema& s, const std::string& list, const std::vector<Item>& items)
+{
+  std::vector<std::string> names;
+  for (const Item& item : items) {
+    s.rule(!contains(names, item.name, names.size()), fmt::format("output.{}.{}.name", list, names.size()),
+           "must be unique", fmt::format(": another {} has it", list));
+    names.push_back(item.name);
+  }
+}
+
+void state_rake_rules(Schema& s, const Case& options)
+{
+  state_unique_names(s, "rake", options.output.rakes);
+  s.rule(options.fluid || options.output.rakes.empty(), "output.rake", "must be left out without a [fluid]");
+  for (std::size_t i = 0; i < options.output.rakes.size() && options.fluid; ++i) {
+    const RakeOptions& rake = options.output.rakes[i];
+    for (const auto& [end, point] : {std::pair("from", rake.from), std::pair("to", rake.to)})
+      s.rule(may_be_inside(point, options.grid), fmt::format("output.rake.{}.{}", i, end), "must lie in the grid");
+  }
+}
+
+void state_section_rules(Schema& s, const Case& options)
+{
+  state_unique_names(s, "section", options.output.sections);
+  s.rule(options.fluid || options.output.sections.empty(), "output.section", "must be left out without a [fluid]");
+  const auto surfaces = surface_names(options);
+  for (std::size_t i = 0; i < options.output.sections.size(); ++i) {
+    const std::string& name = options.output.sections[i].shell;
+    s.rule(contains(surfaces, name, surfaces.size()), fmt::format("output.section.{}.shell", i),
+           "must name a shell or a body", suggestion(name, surfaces));
+  }
+}
+
+void state_cut_rules(Schema& s, const Case& options)
+{
+  state_unique_names(s, "slice", options.output.slices);
+  state_unique_names(s, "isosurface", options.output.isosurfaces);
+  s.rule(options.fluid || options.output.slices.empty(), "output.slice", "must be left out without a [fluid]");
+  s.rule(options.fluid || options.output.isosurfaces.empty(), "output.isosurface",
+         "must be left out without a [fluid]");
+}
+
 }  // namespace
 
 void state_case_rules(Schema& s, const Case& options)
@@ -118,6 +162,7 @@ void state_case_rules(Schema& s, const Case& options)
   s.rule(!options.contact || options.structure.stabilisation == StructureStabilisation::None, "structure.stabilisation",
          "must be \"none\" with [contact], which goes down to stable equilibria anyway");
   s.rule(flows || !options.output.fields, "output.fields", "must be left out without a [fluid]");
+  s.rule(flows || !options.output.statistics, "output.statistics", "must be left out without a [fluid]");
   const auto& sides = options.boundary.sides;
   const bool has_wall =
       std::any_of(sides.begin(), sides.end(), [](const auto& side) { return side.type == SideType::Wall; });
@@ -130,6 +175,9 @@ void state_case_rules(Schema& s, const Case& options)
   state_material_rule(s, options);
   state_body_rules(s, options);
   state_probe_rules(s, options);
+  state_rake_rules(s, options);
+  state_section_rules(s, options);
+  state_cut_rules(s, options);
 }
 
 }  // namespace luff::config

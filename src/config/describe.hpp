@@ -61,5 +61,10 @@ void describe(Schema& s, ShellOutputOptions& shells);
 void describe(Schema& s, WallOutputOptions& walls);
 void describe(Schema& s, CheckpointOutputOptions& checkpoint);
 void describe(Schema& s, ProbeOptions& probe);
+void describe(Schema& s, StatisticsOptions& statistics);
+void describe(Schema& s, RakeOptions& rake);
+void describe(Schema& s, SectionOptions& section);
+void describe(Schema& s, SliceOptions& slice);
+void describe(Schema& s, IsosurfaceOptions& isosurface);
 
 }  // namespace luff::config

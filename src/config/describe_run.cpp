@@ -174,32 +174,50 @@ void describe(Schema& s, OutputOptions& output)
                   "Absent: only when a run is stopped or fails. Motion in time only."});
   s.key("audit", output.audit,
         {.doc = "Steps between audits of the forces of the flow: their sum over a surface against the momentum of the "
-                "fluid around it (`audit.csv`, `force_mismatch` in `steps.csv`, `audit` in the summary). 0: none.",
+                "fluid around it (`audit.csv`, `force_mismatch` in `steps.csv`, `audit` in the summary), and of what changes "
+                "the flow's energy. 0: none.",
          .range = not_negative});
   s.key("plots", output.plots, {.doc = "Make the pictures of `luff plot` when the run ends."});
   s.list("probe", output.probes, {.doc = "A point whose history is written in every step."});
+  s.table("statistics", output.statistics,
+          {.doc = "Means over time: velocity and pressure with their fluctuations, and the shear on surfaces and walls "
+                  "whose files are written. Absent: none."});
+  s.list("rake", output.rakes, {.doc = "Velocity and pressure at points in a row."});
+  s.list("section", output.sections, {.doc = "Force of the flow on strips of a shell or body, per length."});
+  s.list("slice", output.slices, {.doc = "The flow in a plane, for ParaView."});
+  s.list("isosurface", output.isosurfaces, {.doc = "The surface where a field has one value, for ParaView."});
 }
+
+namespace {
+
+void describe_every(Schema& s, double& every, std::string_view doc = "Time between two files.")
+{
+  s.key("every", every, {.doc = doc, .unit = "s", .range = positive, .required = true});
+}
+
+constexpr std::string_view every_instant = "Time between two instants.";
+
+}  // namespace
 
 void describe(Schema& s, FieldOutputOptions& fields)
 {
-  s.key("every", fields.every, {.doc = "Time between two files.", .unit = "s", .range = positive, .required = true});
+  describe_every(s, fields.every);
   s.key("what", fields.what, {.doc = "Fields to write."});
 }
 
 void describe(Schema& s, ShellOutputOptions& shells)
 {
-  s.key("every", shells.every, {.doc = "Time between two files.", .unit = "s", .range = positive, .required = true});
+  describe_every(s, shells.every);
 }
 
 void describe(Schema& s, WallOutputOptions& walls)
 {
-  s.key("every", walls.every, {.doc = "Time between two files.", .unit = "s", .range = positive, .required = true});
+  describe_every(s, walls.every);
 }
 
 void describe(Schema& s, CheckpointOutputOptions& checkpoint)
 {
-  s.key("every", checkpoint.every,
-        {.doc = "Time between two checkpoints.", .unit = "s", .range = positive, .required = true});
+  describe_every(s, checkpoint.every, "Time between two checkpoints.");
 }
 
 void describe(Schema& s, ProbeOptions& probe)
@@ -210,6 +228,62 @@ void describe(Schema& s, ProbeOptions& probe)
         {.doc = "Where: with `shell`, its vertex nearest to this point in the reference configuration.",
          .unit = "m",
          .required = true});
+}
+
+void describe(Schema& s, StatisticsOptions& statistics)
+{
+  s.key("start", statistics.start,
+        {.doc = "They begin with the first step from then on: after what the start of the run leaves has gone.",
+         .unit = "s",
+         .range = not_negative});
+  s.key(
+      "every", statistics.every,
+      {.doc = "Time between two files of the flow's. Absent: one when the run ends.", .unit = "s", .range = positive});
+}
+
+void describe(Schema& s, RakeOptions& rake)
+{
+  describe_name(s, rake.name, "Its name in messages and in the name of its file; no two rakes share one.");
+  s.key("from", rake.from, {.doc = "First point.", .unit = "m", .required = true});
+  s.key("to", rake.to, {.doc = "Last point.", .unit = "m", .required = true});
+  s.key("points", rake.points,
+        {.doc = "How many, evenly spaced, both ends among them.", .range = {.low = 2}, .required = true});
+  describe_every(s, rake.every, every_instant);
+}
+
+void describe(Schema& s, SectionOptions& section)
+{
+  describe_name(s, section.name, "Its name in messages and in the name of its file; no two sections share one.");
+  s.key("shell", section.shell, {.doc = "The shell or body.", .required = true});
+  s.key("axis", section.axis,
+        {.doc = "Direction, of any length, that the surface is divided along.", .required = true});
+  s.rule(!section.axis.isZero(0.0), "axis", "must not be zero");
+  s.key("bins", section.bins,
+        {.doc = "Strips of equal width from one end of the undeformed surface to the other. They are of material: they "
+                "move with it.",
+         .range = at_least_one,
+         .required = true});
+  describe_every(s, section.every, every_instant);
+}
+
+void describe(Schema& s, SliceOptions& slice)
+{
+  describe_name(s, slice.name, "Its name in messages and in the names of its files; no two slices share one.");
+  s.key("point", slice.point, {.doc = "A point of the plane.", .unit = "m", .required = true});
+  s.key("normal", slice.normal, {.doc = "Its normal, of any length.", .required = true});
+  s.rule(!slice.normal.isZero(0.0), "normal", "must not be zero");
+  s.key("what", slice.what, {.doc = "Fields to write."});
+  describe_every(s, slice.every);
+}
+
+void describe(Schema& s, IsosurfaceOptions& isosurface)
+{
+  describe_name(s, isosurface.name,
+                "Its name in messages and in the names of its files; no two isosurfaces share one.");
+  s.key("of", isosurface.of, {.doc = "The field; of a vector its magnitude."});
+  s.key("value", isosurface.value, {.doc = "Its value on the surface.", .required = true});
+  s.key("what", isosurface.what, {.doc = "Fields to write on it."});
+  describe_every(s, isosurface.every);
 }
 
 }  // namespace luff::config

@@ -451,6 +451,58 @@ struct ProbeOptions {
   bool operator==(const ProbeOptions&) const = default;
 };
 
+/// [output.statistics]: means over time, of the flow and of the shear on walls and surfaces.
+struct StatisticsOptions {
+  double start = 0.0;
+  std::optional<double> every;  ///< none: written when the run ends
+
+  bool operator==(const StatisticsOptions&) const = default;
+};
+
+/// [[output.rake]]: points in a row in the flow, both ends among them.
+struct RakeOptions {
+  std::string name;
+  Vec3 from = Vec3::Zero();
+  Vec3 to = Vec3::Zero();
+  int points = 2;
+  double every = 0.0;
+
+  bool operator==(const RakeOptions&) const = default;
+};
+
+/// [[output.section]]: forces on the strips of a surface between planes normal to an axis.
+struct SectionOptions {
+  std::string name;
+  std::string shell;  ///< or body
+  Vec3 axis = Vec3::UnitZ();
+  int bins = 1;
+  double every = 0.0;
+
+  bool operator==(const SectionOptions&) const = default;
+};
+
+/// [[output.slice]]: the flow in a plane.
+struct SliceOptions {
+  std::string name;
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ();
+  std::vector<FlowField> what{FlowField::Velocity, FlowField::Pressure};
+  double every = 0.0;
+
+  bool operator==(const SliceOptions&) const = default;
+};
+
+/// [[output.isosurface]]: where a field, or the magnitude of a vector, has one value.
+struct IsosurfaceOptions {
+  std::string name;
+  FlowField of = FlowField::QCriterion;
+  double value = 0.0;
+  std::vector<FlowField> what{FlowField::Velocity};
+  double every = 0.0;
+
+  bool operator==(const IsosurfaceOptions&) const = default;
+};
+
 /// [output]
 struct OutputOptions {
   std::optional<FieldOutputOptions> fields;           ///< none: not written
@@ -460,6 +512,11 @@ struct OutputOptions {
   int audit = 10;                                     ///< steps between audits of forces; 0: none
   bool plots = false;                                 ///< make the pictures of `luff plot` when the run ends
   std::vector<ProbeOptions> probes;
+  std::optional<StatisticsOptions> statistics;  ///< none: not accumulated
+  std::vector<RakeOptions> rakes;
+  std::vector<SectionOptions> sections;
+  std::vector<SliceOptions> slices;
+  std::vector<IsosurfaceOptions> isosurfaces;
 
   bool operator==(const OutputOptions&) const = default;
 };

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "fluid/momentum_balance.hpp"
 #include "operators/vector_algebra.hpp"
 #include "parallel/vector_field.hpp"
 
@@ -663,18 +662,23 @@ IndexBox FlowSolver::cells_around(int first_triangle, int count, int margin) con
   return {lo, hi};
 }
 
-Vec3 FlowSolver::force_by_momentum(const IndexBox& box)
+FlowOverStep FlowSolver::accepted_step()
 {
   const auto timer = profile_.time(Phase::Loads);
   fill_velocity_halo(views(u_before_));
   fill_halos();
-  const FlowOverStep step{.u_old = views(std::as_const(u_before_)),
-                          .U_old = views(std::as_const(U_)),  // swapped by accept()
-                          .u = views(std::as_const(state_.u)),
-                          .U = views(std::as_const(state_.U)),
-                          .p = state_.p.view(),
-                          .dt = step_.dt};
-  Vec3 force = momentum_lost(grid_, box, step, options_.viscosity);
+  return {.u_old = views(std::as_const(u_before_)),
+          .U_old = views(std::as_const(U_)),  // swapped by accept()
+          .u = views(std::as_const(state_.u)),
+          .U = views(std::as_const(state_.U)),
+          .p = state_.p.view(),
+          .dt = step_.dt};
+}
+
+Vec3 FlowSolver::force_by_momentum(const FlowOverStep& accepted, const IndexBox& box) const
+{
+  const auto timer = profile_.time(Phase::Loads);
+  Vec3 force = momentum_lost(grid_, box, accepted, options_.viscosity);
   const double t = 0.5 * (step_.t_old + step_.t_new);
   Vec3 body_force = Vec3::Zero();
   for_each_cell_in_order(intersection(box, grid_.owned()), [&](int i, int j, int k) {

@@ -33,6 +33,7 @@
 #include "core/time_step.hpp"
 #include "fluid/boundary.hpp"
 #include "fluid/component_balance.hpp"
+#include "fluid/momentum_balance.hpp"
 #include "fluid/newton_krylov.hpp"
 #include "fluid/stages.hpp"
 #include "immersed/cross_terms.hpp"
@@ -108,10 +109,11 @@ class FlowSolver {
   /// The cells with links that triangles [first, first + count) cut, widened by `margin` cells, in the grid.
   /// Collective.
   [[nodiscard]] IndexBox cells_around(int first_triangle, int count, int margin) const;
-  /// What the fluid in a box of cells has lost in the accepted step to what stands in it, by its momentum, in the mean
-  /// of the step [M L/T^2]: independent of loads(), with which it has to agree.  Before the next step begins.
-  /// Collective.
-  [[nodiscard]] Vec3 force_by_momentum(const IndexBox& box);
+  /// Both ends of the accepted step, for balances, with valid halos; good until the next step begins.  Collective.
+  [[nodiscard]] FlowOverStep accepted_step();
+  /// What the fluid in a box of cells has lost in that step to what stands in it, by its momentum, in the mean of the
+  /// step [M L/T^2]: independent of loads(), with which it has to agree.  Collective.
+  [[nodiscard]] Vec3 force_by_momentum(const FlowOverStep& accepted, const IndexBox& box) const;
 
   /// Go on from an accepted state at time t and the offsets of all ranks' cut faces: with state() and
   /// links().accepted_offsets() of the same grid, boundaries and options the same bits as going on. Collective.
@@ -119,6 +121,8 @@ class FlowSolver {
                double t);
 
   [[nodiscard]] const FlowState& state() const { return state_; }
+  /// Velocity at the start of the accepted step; halos as they happen to be.
+  [[nodiscard]] View3<const double> velocity_before() const { return views(u_before_); }
   [[nodiscard]] const immersed::CutLinks& links() const { return links_; }
   /// Null with the scheme "cut-link".
   [[nodiscard]] const immersed::WallNodes* wall_nodes() const { return wall_nodes_ ? &*wall_nodes_ : nullptr; }

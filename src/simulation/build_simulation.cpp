@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/build.hpp"
 #include "simulation/check_flow.hpp"
+#include "simulation/check_output.hpp"
 
 namespace luff::simulation {
 
@@ -39,8 +40,10 @@ std::unique_ptr<Simulation> build_simulation(MPI_Comm comm, const config::Case& 
   auto structure = build_structure(options);
   check_sheets_inside(options, *structure);
   auto surroundings = build_surroundings(comm, options);
-  if (auto* flow = surroundings->flow())
+  if (auto* flow = surroundings->flow()) {
     check_sheets_inside(flow->grid(), options, *structure);
+    check_output(flow->grid(), options.output, *structure);
+  }
   return std::make_unique<Simulation>(
       Clock(options.time.end, options.time.step, options.time.cfl), std::move(surroundings), std::move(structure),
       coupling::make_acceleration(build_acceleration(options.coupling)), build_policy(options.coupling));

@@ -172,14 +172,6 @@ void check_sides(const grid::Grid& grid, const config::Case& options)
     conditions.evaluate_at(t);
 }
 
-void check_probes(const grid::Grid& grid, const config::OutputOptions& output)
-{
-  for (const config::ProbeOptions& probe : output.probes)
-    if (!probe.shell && !grid::locate(grid, probe.point))
-      fail_input("probe '{}': ({:.6g}, {:.6g}, {:.6g}) lies outside the grid", probe.name, probe.point[0],
-                 probe.point[1], probe.point[2]);
-}
-
 }  // namespace
 
 void check_sheets_inside(const config::Case& options, const Structure& structure)
@@ -214,7 +206,6 @@ void check_flow(const grid::Grid& grid, const config::Case& options)
 {
   check_initial_velocity(grid, options.fluid->initial);
   refusing_at(options.boundary.mark, [&] { check_sides(grid, options); });
-  check_probes(grid, options.output);
 }
 
 }  // namespace luff::simulation

@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "config/changes.hpp"
 #include "core/error.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/checkpoint_folder.hpp"
 #include "parallel/for_each.hpp"
+#include "simulation/statistics.hpp"
+#include "simulation/wall_surface.hpp"
 #include "surface/mesh.hpp"
 
 namespace luff::simulation {
@@ -98,6 +102,37 @@ void transfer_tally(File& file, T& tally)
   file.value("tally/audit", tally.audit);
 }
 
+template <class File, class S>
+void transfer_statistics(File& file, S& statistics)
+{
+  file.value("statistics/start", statistics.start);
+  file.value("statistics/time", statistics.flow.time);
+  file.cells("statistics/u", statistics.flow.u);
+  file.cells("statistics/p", statistics.flow.p);
+  for (std::size_t pair = 0; pair < statistics.flow.uu.size(); ++pair)
+    file.cells("statistics/uu_" + std::to_string(pair), statistics.flow.uu[pair]);
+  file.cells("statistics/pp", statistics.flow.pp);
+  file.value("statistics/sheets/time", statistics.sheets.time);
+  file.value("statistics/sheets/impulse", statistics.sheets.impulse);
+  file.value("statistics/sheets/magnitude", statistics.sheets.magnitude);
+  file.value("statistics/walls/time", statistics.walls.time);
+}
+
+/// By the number of the face in the whole grid.
+struct WallPieces {
+  std::vector<std::int64_t> face;
+  std::vector<double> impulse;
+  std::vector<double> magnitude;
+};
+
+template <class File, class Pieces>
+void transfer_walls(File& file, Pieces& walls)
+{
+  file.pieces("statistics/walls/face", walls.face);
+  file.pieces("statistics/walls/impulse", walls.impulse);
+  file.pieces("statistics/walls/magnitude", walls.magnitude);
+}
+
 /// Where and when a run stands, and what it counted, besides the states of flow, shells and coupling.
 struct Progress {
   double t = 0.0;
@@ -167,6 +202,8 @@ struct Saved {
   shell::Checkpoint shells = {};
   std::vector<double> free_bodies = {};
   coupling::History history;
+  const Statistics* statistics = nullptr;
+  WallPieces walls = {};
 };
 
 Saved collect(const config::Case& options, Simulation& simulation, const Record& record)
@@ -190,8 +227,16 @@ Saved collect(const config::Case& options, Simulation& simulation, const Record&
   if (structure.shells().dynamics)
     saved.shells = structure.shells().dynamics->checkpoint();
   saved.free_bodies = structure.free_bodies();
+  saved.statistics = record.statistics.get();
+  if (saved.statistics != nullptr && saved.statistics->walls.time > 0.0)
+    saved.walls = {.face = wall_faces(*simulation.surroundings().flow()),
+                   .impulse = saved.statistics->walls.impulse,
+                   .magnitude = saved.statistics->walls.magnitude};
   return saved;
 }
+
+/// Whether statistics are in the file.
+constexpr const char* collects_key = "statistics/collected";
 
 template <class File>
 void put(File& file, const Saved& saved)
@@ -208,6 +253,12 @@ void put(File& file, const Saved& saved)
   transfer_shells(file, saved.shells);
   file.value("bodies/free", saved.free_bodies);
   transfer_coupling(file, saved.history);
+  const int collects = saved.statistics != nullptr ? 1 : 0;
+  file.value(collects_key, collects);
+  if (saved.statistics != nullptr) {
+    transfer_statistics(file, *saved.statistics);
+    transfer_walls(file, saved.walls);
+  }
 }
 
 /// Other bits may come from another compiler; another mesh or grid differs by more than round-off.
@@ -238,6 +289,38 @@ void restore_flow(const output::CheckpointReader& file, fluid::FlowSolver& flow,
   immersed::NodeOffsets node_offsets;
   transfer_node_offsets(file, node_offsets);
   flow.restore(std::move(state), offsets, node_offsets, t);
+}
+
+/// What all ranks had of the walls, by this rank's faces.
+void take_own_faces(const WallPieces& all, const fluid::FlowSolver& flow, ShearHistory& walls)
+{
+  std::map<std::int64_t, std::size_t> place;
+  for (std::size_t n = 0; n < all.face.size(); ++n)
+    place[all.face[n]] = n;
+  for (const std::int64_t face : wall_faces(flow)) {
+    const auto known = place.find(face);
+    if (known == place.end())
+      continue;
+    const auto impulse = all.impulse.begin() + 3 * static_cast<std::ptrdiff_t>(known->second);
+    walls.impulse.insert(walls.impulse.end(), impulse, impulse + 3);
+    walls.magnitude.push_back(all.magnitude[known->second]);
+  }
+}
+
+/// Null where the file has none.
+std::shared_ptr<Statistics> restore_statistics(const output::CheckpointReader& file, Simulation& simulation)
+{
+  int collects = 0;
+  file.value(collects_key, collects);
+  if (collects == 0)
+    return nullptr;
+  const fluid::FlowSolver& flow = *simulation.surroundings().flow();
+  auto statistics = std::make_shared<Statistics>(flow.grid().owned());
+  transfer_statistics(file, *statistics);
+  WallPieces walls;
+  transfer_walls(file, walls);
+  take_own_faces(walls, flow, statistics->walls);
+  return statistics;
 }
 
 }  // namespace
@@ -279,6 +362,7 @@ Resumption resume(MPI_Comm comm, const RestartRequest& request, const config::Ca
   simulation.clock().resume(progress.t, progress.steps);
   transfer_tally(file, resumption.record.tally);
   ++resumption.record.tally.restarts;
+  resumption.record.statistics = restore_statistics(file, simulation);
   resumption.record.output = output::marks_of_text(progress.marks);
   resumption.record.output.folder = resumption.folder;
   if (simulation.clock().finished())

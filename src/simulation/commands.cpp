@@ -17,6 +17,7 @@
 #include "simulation/build.hpp"
 #include "simulation/build_nodes.hpp"
 #include "simulation/check_flow.hpp"
+#include "simulation/check_output.hpp"
 #include "simulation/grid_snapshot.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/mark_fields.hpp"
@@ -218,6 +219,7 @@ void check_case(MPI_Comm comm, const std::filesystem::path& file, const config::
   if (grid) {
     check_sheets_inside(*grid, options, *structure);
     check_flow(*grid, options);
+    check_output(*grid, options.output, *structure);
   }
   if (!marches(options))
     (void)build_still(options);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "config/options.hpp"
 #include "fluid/flow_solver.hpp"
@@ -17,11 +18,11 @@ namespace luff::simulation {
 [[nodiscard]] output::FlowSnapshot flow_snapshot(const fluid::FlowSolver& flow, std::span<const config::FlowField> what,
                                                  bool bodies = false);
 
-/// Velocity and physical pressure at a place of the grid (grid::locate), trilinear between cell centres.  Collective.
+/// Velocity and physical pressure at places of the grid (grid::locate), trilinear between cell centres.  Collective.
 struct PointSample {
   Vec3 velocity = Vec3::Zero();
   double pressure = 0.0;
 };
-[[nodiscard]] PointSample sample(const fluid::FlowSolver& flow, const grid::Location& location);
+[[nodiscard]] std::vector<PointSample> sample(const fluid::FlowSolver& flow, std::span<const grid::Location> places);
 
 }  // namespace luff::simulation

@@ -28,6 +28,14 @@ bool is_closed(const Structure& structure, const SheetRange& sheet)
   return !sheet.deforms && structure.rigid()[sheet.part].closed;
 }
 
+std::vector<double> displaced_volumes(const Structure& structure)
+{
+  std::vector<double> volumes;
+  for (const SheetRange& sheet : structure.sheets())
+    volumes.push_back(is_closed(structure, sheet) ? surface::solid(sheet.reference).volume : 0.0);
+  return volumes;
+}
+
 bool overlap(const IndexBox& a, const IndexBox& b)
 {
   return intersection(a, b).volume() > 0;
@@ -46,7 +54,10 @@ IndexBox united(const IndexBox& a, const IndexBox& b)
 }  // namespace
 
 ForceAudit::ForceAudit(int every, const Structure& structure)
-    : every_(every), before_(structure.sheets().size()), sums_(structure.sheets().size())
+    : every_(every),
+      displaced_volume_(displaced_volumes(structure)),
+      before_(structure.sheets().size()),
+      sums_(structure.sheets().size())
 {
 }
 
@@ -56,19 +67,19 @@ std::vector<AuditedForce> ForceAudit::record(const TimeStep& step, fluid::FlowSo
   std::vector<Instant> now = instants(structure, step);
   double work = 0.0;
   for (std::size_t s = 0; s < now.size(); ++s)
-    work += 0.5 * step.dt * (before_[s].power + now[s].power);
+    if (structure.sheets()[s].deforms)
+      work += 0.5 * step.dt * (before_[s].power + now[s].power);
   flow_work_ += work;
   exchanged_ += std::abs(work);
   // The forces at the start of the first step are not known.
   if (step.index > 1 && step.index % every_ == 0) {
-    const std::vector<IndexBox> around = boxes(flow, structure);
+    result = audit(now, step, flow, structure);
     for (std::size_t s = 0; s < now.size(); ++s) {
-      const AuditedForce audited = audit(s, around, now, step, flow, structure);
+      const AuditedForce& audited = result[s];
       sums_[s].by_traction += audited.by_traction;
       sums_[s].by_momentum += audited.by_momentum;
       sums_[s].square += audited.by_momentum.squaredNorm();
       sums_[s].square_of_difference += (audited.by_traction - audited.by_momentum).squaredNorm();
-      result.push_back(audited);
     }
     ++audits_;
   }
@@ -85,8 +96,7 @@ std::vector<ForceAudit::Instant> ForceAudit::instants(const Structure& structure
     Instant now;
     for (int v = sheet.first_vertex; v < sheet.first_vertex + sheet.vertices; ++v) {
       now.force += structure.loads().force(v);
-      if (sheet.deforms)
-        now.power += structure.loads().force(v).dot(u[v]);
+      now.power += structure.loads().force(v).dot(u[v]);
     }
     if (is_closed(structure, sheet))
       now.displaced_momentum = displaced_momentum(sheet, x, u);
@@ -95,7 +105,7 @@ std::vector<ForceAudit::Instant> ForceAudit::instants(const Structure& structure
   return all;
 }
 
-/// Around each surface, grown until no box cuts another surface's.
+/// Around each surface; surfaces whose boxes overlap share one that holds them all.
 std::vector<IndexBox> ForceAudit::boxes(const fluid::FlowSolver& flow, const Structure& structure) const
 {
   std::vector<IndexBox> all;
@@ -114,25 +124,39 @@ std::vector<IndexBox> ForceAudit::boxes(const fluid::FlowSolver& flow, const Str
   return all;
 }
 
-AuditedForce ForceAudit::audit(std::size_t surface, const std::vector<IndexBox>& boxes, const std::vector<Instant>& now,
-                               const TimeStep& step, fluid::FlowSolver& flow, const Structure& structure) const
+/// Surfaces that share a box get the same numbers.
+std::vector<AuditedForce> ForceAudit::audit(const std::vector<Instant>& now, const TimeStep& step,
+                                            fluid::FlowSolver& flow, const Structure& structure) const
 {
-  const double density = flow.options().density;
-  AuditedForce result{.by_momentum = flow.force_by_momentum(boxes[surface])};
+  const fluid::FlowOverStep accepted = flow.accepted_step();
+  const std::vector<IndexBox> around = boxes(flow, structure);
+  std::vector<AuditedForce> all(now.size());
   for (std::size_t s = 0; s < now.size(); ++s) {
-    if (!overlap(boxes[surface], boxes[s]))
-      continue;
-    result.by_traction += 0.5 * (before_[s].force + now[s].force);
-    result.by_momentum += density * (now[s].displaced_momentum - before_[s].displaced_momentum) / step.dt;
-    const SheetRange& sheet = structure.sheets()[s];
-    if (!is_closed(structure, sheet))
-      continue;
-    const double t = 0.5 * (step.t_old + step.t_new);
-    const surface::Solid body = surface::solid(sheet.reference);
-    const Vec3 centre = structure.body_motion(sheet.part, step.t_new, step.dt).centre;
-    result.by_momentum -= density * body.volume * flow.options().acceleration.value(centre, t);
+    const std::size_t first = std::find(around.begin(), around.end(), around[s]) - around.begin();
+    if (first == s)
+      all[s].by_momentum = flow.force_by_momentum(accepted, around[s]);
+    const AuditedForce own = share(s, now[s], step, flow.options(), structure);
+    all[first].by_traction += own.by_traction;
+    all[first].by_momentum += own.by_momentum;
   }
-  return result;
+  for (std::size_t s = 0; s < now.size(); ++s)
+    all[s] = all[std::find(around.begin(), around.end(), around[s]) - around.begin()];
+  return all;
+}
+
+/// What a surface adds: the force on it, and the momentum and the body force of the fluid that it displaces.
+AuditedForce ForceAudit::share(std::size_t surface, const Instant& now, const TimeStep& step,
+                               const fluid::FlowOptions& flow, const Structure& structure) const
+{
+  const Instant& before = before_[surface];
+  AuditedForce own{.by_traction = 0.5 * (before.force + now.force),
+                   .by_momentum = flow.density * (now.displaced_momentum - before.displaced_momentum) / step.dt};
+  if (displaced_volume_[surface] == 0.0)
+    return own;
+  const double t = 0.5 * (step.t_old + step.t_new);
+  const Vec3 centre = structure.body_motion(structure.sheets()[surface].part, step.t_new, step.dt).centre;
+  own.by_momentum -= flow.density * displaced_volume_[surface] * flow.acceleration.value(centre, t);
+  return own;
 }
 
 std::vector<AuditVerdict> ForceAudit::verdicts() const
@@ -151,6 +175,14 @@ std::vector<AuditVerdict> ForceAudit::verdicts() const
     all.push_back(verdict);
   }
   return all;
+}
+
+double ForceAudit::power() const
+{
+  double sum = 0.0;
+  for (const Instant& instant : before_)
+    sum += instant.power;
+  return sum;
 }
 
 std::vector<double> ForceAudit::numbers() const

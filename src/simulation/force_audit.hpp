@@ -48,6 +48,9 @@ class ForceAudit {
   /// The same without signs: what goes to and fro between flow and shells.
   [[nodiscard]] double exchanged() const { return exchanged_; }
 
+  /// Of the flow on all surfaces at the end of the last step [M L^2/T^3].
+  [[nodiscard]] double power() const;
+
   /// Everything that a run has to go on with.
   [[nodiscard]] std::vector<double> numbers() const;
   void restore(const std::vector<double>& numbers);
@@ -67,12 +70,14 @@ class ForceAudit {
   };
   [[nodiscard]] std::vector<Instant> instants(const Structure& structure, const TimeStep& step) const;
   [[nodiscard]] std::vector<IndexBox> boxes(const fluid::FlowSolver& flow, const Structure& structure) const;
-  [[nodiscard]] AuditedForce audit(std::size_t surface, const std::vector<IndexBox>& boxes,
-                                   const std::vector<Instant>& now, const TimeStep& step, fluid::FlowSolver& flow,
-                                   const Structure& structure) const;
+  [[nodiscard]] std::vector<AuditedForce> audit(const std::vector<Instant>& now, const TimeStep& step,
+                                                fluid::FlowSolver& flow, const Structure& structure) const;
+  [[nodiscard]] AuditedForce share(std::size_t surface, const Instant& now, const TimeStep& step,
+                                   const fluid::FlowOptions& flow, const Structure& structure) const;
 
   int every_;
-  std::vector<Instant> before_;  ///< at the end of the step before; nothing at the start of a run
+  std::vector<double> displaced_volume_;  ///< of closed bodies; 0 of other surfaces
+  std::vector<Instant> before_;           ///< at the end of the step before; nothing at the start of a run
   std::vector<Sums> sums_;
   long audits_ = 0;
   double flow_work_ = 0.0;

@@ -27,7 +27,7 @@ template <class Value>
     if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>)
       values.push_back(static_cast<float>(v));
     else
-      for (int d = 0; d < 3; ++d)
+      for (int d = 0; d < components; ++d)
         values.push_back(static_cast<float>(v[d]));
   });
   return {name, components, std::move(values)};

@@ -6,13 +6,17 @@
 #include <iostream>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "output/summary.hpp"
 #include "parallel/agreement.hpp"
+#include "simulation/cut_record.hpp"
 #include "simulation/flow_fields.hpp"
+#include "simulation/rake_record.hpp"
+#include "simulation/section_record.hpp"
 #include "simulation/wall_surface.hpp"
 #include "surface/selection.hpp"
 
@@ -59,9 +63,6 @@ std::vector<output::Column> step_columns()
   return columns;
 }
 
-/// Difference of mean forces by traction and by momentum that deserves a warning.
-constexpr double trusted_mismatch = 0.05;
-
 output::NamedField field_of(const std::string& name, const std::vector<Vec3>& values, int first, int count)
 {
   std::vector<double> flat;
@@ -93,16 +94,24 @@ Recorder::Recorder(const output::RunFolder& folder, std::shared_ptr<spdlog::logg
   open_tables(before);
   for (const config::ProbeOptions& probe : options_.output.probes)
     open_probe(probe, before);
+  open_observers(earlier);
   if (earlier != nullptr)
     resume(*earlier);
   else
-    write_snapshots(0.0, options_.time.step, /*last=*/false);
+    write_start();
   (void)checkpoint_due_.due(simulation_.clock().now());
   started_ = seconds_now() - tally_.seconds;
   last_step_ended_ = seconds_now();
   simulation_.profile().reset();
   if (auto* flow = simulation_.surroundings().flow())
     flow->profile().reset();
+}
+
+void Recorder::write_start()
+{
+  write_snapshots(0.0, options_.time.step, /*last=*/false);
+  for (const auto& observer : observers_)
+    observer->start();
 }
 
 /// Everything that was due up to now was written by the earlier run.
@@ -113,10 +122,7 @@ void Recorder::resume(const Record& earlier)
     audit_->restore(tally_.audit);
   newton_iterations_ = simulation_.structure().newton_iterations();
   recorded_steps_ = simulation_.clock().steps();
-  const auto latest = [&](const std::string& name) -> std::optional<double> {
-    const output::SeriesMark* series = earlier.output.of(name);
-    return series != nullptr && !series->instants.empty() ? std::optional(series->instants.back().time) : std::nullopt;
-  };
+  const auto latest = [&](const std::string& name) { return last_instant(&earlier, name); };
   fields_due_.resume(simulation_.clock().now(), latest("fields"));
   shells_due_.resume(simulation_.clock().now(),
                      surfaces_.empty() ? std::nullopt : latest(surfaces_.front().mark().name));
@@ -133,8 +139,8 @@ void Recorder::open_tables(const output::EarlierOutput* earlier)
   steps_.emplace(folder_, "steps.csv", step_columns(), earlier);
   if (options_.fluid && options_.output.fields)
     fields_.emplace(folder_, "fields", earlier);
-  if (options_.fluid && options_.output.audit > 0 && !simulation_.structure().sheets().empty())
-    open_audit(earlier);
+  if (options_.fluid && options_.output.audit > 0)
+    audit_.emplace(folder_, options_.output.audit, simulation_.structure(), earlier);
   if (options_.output.walls)
     walls_.emplace(folder_, "walls", earlier);
   for (const SheetRange& sheet : simulation_.structure().sheets()) {
@@ -152,15 +158,21 @@ void Recorder::open_tables(const output::EarlierOutput* earlier)
   }
 }
 
-void Recorder::open_audit(const output::EarlierOutput* earlier)
+void Recorder::open_observers(const Record* earlier)
 {
-  audit_.emplace(options_.output.audit, simulation_.structure());
-  std::vector<output::Column> columns{{"t", "time"}};
-  for (const SheetRange& sheet : simulation_.structure().sheets())
-    for (const char* name : {"by_traction_", "by_momentum_"})
-      for (const output::Column& c : output::vector_columns(name + sheet.name, "force"))
-        columns.push_back(c);
-  audit_table_.emplace(folder_, "audit.csv", columns, earlier);
+  if (options_.output.statistics) {
+    auto statistics = std::make_unique<StatisticsRecord>(folder_, options_, simulation_, earlier);
+    statistics_ = statistics.get();
+    observers_.push_back(std::move(statistics));
+  }
+  const auto open = [&]<class Record>(const auto& list, std::type_identity<Record>) {
+    for (const auto& options : list)
+      observers_.push_back(std::make_unique<Record>(folder_, options, simulation_, earlier));
+  };
+  open(options_.output.rakes, std::type_identity<RakeRecord>{});
+  open(options_.output.sections, std::type_identity<SectionRecord>{});
+  open(options_.output.slices, std::type_identity<CutRecord>{});
+  open(options_.output.isosurfaces, std::type_identity<CutRecord>{});
 }
 
 void Recorder::open_table_of_forces(const SheetRange& sheet, const output::EarlierOutput* earlier)
@@ -231,6 +243,8 @@ bool Recorder::record(const StepRecord& record)
   warn_about_limits(record);
   {
     const auto timer = simulation_.profile().time(Phase::Output);
+    for (const auto& observer : observers_)
+      observer->record(record.step);
     write_forces(t, record.step.dt);
     write_motions(t, record.step.dt);
     write_probes(t, record.step.dt);
@@ -251,7 +265,7 @@ void Recorder::write_steps(const StepRecord& record)
   const shell::EnergyLedger energy = simulation_.structure().energy();
   const bool flows = options_.fluid.has_value();
   const double nothing = std::numeric_limits<double>::quiet_NaN();
-  const double mismatch = audit_ ? audit_forces(record.step) : nothing;
+  const double mismatch = audit(record.step);
   std::vector<double> row{double(record.step.index),
                           record.step.t_new,
                           record.step.dt,
@@ -332,61 +346,14 @@ void Recorder::warn_about_limits(const StepRecord& record)
         record.step.index, record.step.t_new, cfl, limits.convective, diffusion, limits.diffusive);
 }
 
-double Recorder::audit_forces(const TimeStep& step)
+/// The mismatch of this step's forces; no number where no audit was due.
+double Recorder::audit(const TimeStep& step)
 {
-  const std::vector<AuditedForce> audited =
-      audit_->record(step, *simulation_.surroundings().flow(), simulation_.structure());
-  tally_.audit = audit_->numbers();
-  if (audited.empty())
+  if (!audit_)
     return std::numeric_limits<double>::quiet_NaN();
-  const std::vector<AuditVerdict> so_far = audit_->verdicts();
-  std::vector<double> row{0.5 * (step.t_old + step.t_new)};
-  double worst = 0.0;
-  for (std::size_t s = 0; s < audited.size(); ++s) {
-    append(row, audited[s].by_traction);
-    append(row, audited[s].by_momentum);
-    if (so_far[s].scale > 0.0)
-      worst = std::max(worst, (audited[s].by_traction - audited[s].by_momentum).norm() / so_far[s].scale);
-  }
-  audit_table_->row(row);
-  return worst;
-}
-
-void Recorder::report_audit(nlohmann::ordered_json& summary) const
-{
-  const auto& sheets = simulation_.structure().sheets();
-  const std::vector<AuditVerdict> verdicts = audit_->verdicts();
-  for (std::size_t s = 0; s < sheets.size(); ++s) {
-    const AuditVerdict& v = verdicts[s];
-    if (v.audits == 0)
-      continue;
-    const auto list = [](const Vec3& x) { return nlohmann::ordered_json{x[0], x[1], x[2]}; };
-    summary["audit"][sheets[s].name] = {{"audits", v.audits},
-                                        {"mean_force_by_traction", list(v.by_traction)},
-                                        {"mean_force_by_momentum", list(v.by_momentum)},
-                                        {"mismatch_of_means", v.mismatch},
-                                        {"rms_of_difference", v.deviation}};
-    log_->info(
-        "force audit of '{}': mean force by traction ({:.4g}, {:.4g}, {:.4g}), by momentum ({:.4g}, {:.4g}, "
-        "{:.4g}), apart {:.1f} %; single steps {:.1f} %",
-        sheets[s].name, v.by_traction[0], v.by_traction[1], v.by_traction[2], v.by_momentum[0], v.by_momentum[1],
-        v.by_momentum[2], 100.0 * v.mismatch, 100.0 * v.deviation);
-    if (v.mismatch > trusted_mismatch)
-      log_->warn(
-          "the forces on '{}' differ by {:.0f} % from what the fluid around it loses: refine the grid there, or "
-          "shorten time.step",
-          sheets[s].name, 100.0 * v.mismatch);
-  }
-  const double work = simulation_.structure().energy().fluid_work;
-  if (audit_->exchanged() > 0.0) {
-    const double apart = std::abs(audit_->flow_work() - work) / audit_->exchanged();
-    summary["audit"]["work"] = {
-        {"by_flow", audit_->flow_work()}, {"on_shells", work}, {"exchanged", audit_->exchanged()}, {"mismatch", apart}};
-    log_->info(
-        "work of the flow on shells: {:.4g} as the flow counts it, {:.4g} as the shells do, apart {:.2f} % of the "
-        "{:.4g} that went to and fro",
-        audit_->flow_work(), work, 100.0 * apart, audit_->exchanged());
-  }
+  const double mismatch = audit_->record(step, *simulation_.surroundings().flow(), simulation_.structure());
+  tally_.audit = audit_->numbers();
+  return mismatch;
 }
 
 /// Moments of rigid sheets are about their centres.
@@ -441,7 +408,7 @@ void Recorder::write_probes(double t, double dt)
       append(row, value);
       append(row, velocities[probe.vertex]);
     } else {
-      const PointSample here = sample(*simulation_.surroundings().flow(), *probe.location);
+      const PointSample here = sample(*simulation_.surroundings().flow(), {&*probe.location, 1}).front();
       value = here.velocity;
       append(row, value);
       row.push_back(here.pressure);
@@ -463,7 +430,7 @@ void Recorder::write_snapshots(double t, double dt, bool last)
   if (walls_ && walls_due_.due(t, last)) {
     auto* flow = simulation_.surroundings().flow();
     flow->fill_halos();
-    walls_->write(t, wall_snapshot(*flow, folder_.comm()));
+    walls_->write(t, wall_snapshot(*flow, folder_.comm(), statistics_ ? &statistics_->collected()->walls : nullptr));
   }
   if (options_.output.shells && shells_due_.due(t, last)) {
     write_shells(t, dt);
@@ -512,8 +479,24 @@ output::SurfaceSnapshot Recorder::sheet_snapshot(const SheetRange& sheet, double
     }
     snapshot.face_fields.push_back({"pressure" + suffix, 1, std::move(pressure)});
     snapshot.face_fields.push_back({"shear" + suffix, 3, std::move(shear)});
+    if (statistics_ != nullptr)
+      add_shear_history(sheet, side, snapshot);
   }
   return snapshot;
+}
+
+void Recorder::add_shear_history(const SheetRange& sheet, int side, output::SurfaceSnapshot& snapshot) const
+{
+  const ShearHistory& history = statistics_->collected()->sheets;
+  std::vector<double> mean;
+  std::vector<double> oscillation;
+  for (int e = sheet.first_triangle; e < sheet.first_triangle + sheet.triangles; ++e) {
+    mean.push_back(history.mean_magnitude(2 * e + side));
+    oscillation.push_back(history.oscillation(2 * e + side));
+  }
+  const std::string suffix = side == 0 ? "_minus" : "_plus";
+  snapshot.face_fields.push_back({"tawss" + suffix, 1, std::move(mean)});
+  snapshot.face_fields.push_back({"osi" + suffix, 1, std::move(oscillation)});
 }
 
 void Recorder::show_progress(const StepRecord& record)
@@ -572,8 +555,11 @@ std::vector<const output::CsvWriter*> Recorder::tables() const
     all.push_back(&table);
   for (const Probe& probe : probes_)
     all.push_back(probe.csv.get());
-  if (audit_table_)
-    all.push_back(&*audit_table_);
+  if (audit_)
+    all.push_back(&audit_->table());
+  for (const auto& observer : observers_)
+    for (const output::CsvWriter* table : observer->tables())
+      all.push_back(table);
   return all;
 }
 
@@ -586,12 +572,17 @@ std::vector<const output::SeriesMark*> Recorder::series() const
     all.push_back(&walls_->mark());
   for (const output::SurfaceSeries& surface : surfaces_)
     all.push_back(&surface.mark());
+  for (const auto& observer : observers_)
+    for (const output::SeriesMark* mark : observer->series())
+      all.push_back(mark);
   return all;
 }
 
 Record Recorder::record_so_far() const
 {
-  Record record{tally_, {}};
+  Record record{.tally = tally_, .output = {}};
+  if (statistics_ != nullptr)
+    record.statistics = statistics_->collected();
   record.tally.seconds = seconds_now() - started_;
   for (const output::CsvWriter* table : tables())
     record.output.tables.push_back(table->mark());
@@ -636,6 +627,13 @@ std::string Recorder::checkpoint_at_end(Ending ending)
   return trouble;
 }
 
+void Recorder::write_end(double t)
+{
+  write_snapshots(t, options_.time.step, /*last=*/true);
+  for (const auto& observer : observers_)
+    observer->finish(t);
+}
+
 void Recorder::finish(Ending ending, const std::string& reason)
 {
   if (folder_.writes())
@@ -646,7 +644,7 @@ void Recorder::finish(Ending ending, const std::string& reason)
   if (!trouble.empty())
     log_->warn("{}", trouble);
   if (ending != Ending::Failed && clock.steps() > 0)
-    write_snapshots(clock.now(), options_.time.step, /*last=*/true);
+    write_end(clock.now());
   const char* const state = ending == Ending::Finished ? "finished" : ending == Ending::Stopped ? "stopped" : "failed";
   nlohmann::ordered_json summary{{"title", options_.title},
                                  {"state", state},
@@ -659,7 +657,24 @@ void Recorder::finish(Ending ending, const std::string& reason)
     summary["restarts"] = tally_.restarts;
   if (failed_checkpoints_ > 0)
     summary["failed_checkpoints"] = failed_checkpoints_;
-  const double steps = std::max(1, clock.steps());
+  report_steps(summary);
+  for (const auto& observer : observers_)
+    observer->report(summary);
+  for (std::size_t n = 0; n < phase_names.size(); ++n)
+    summary["phases"][phase_names[n]] = tally_.phases[n];
+  say_ending(state);
+  report_oscillations(summary);
+  output::write_summary(folder_, summary);
+  if (ending != Ending::Failed)
+    name_files();
+  if (ending == Ending::Stopped && !trouble.empty())
+    fail_run("{}", trouble);
+}
+
+/// Counts and means over all steps.
+void Recorder::report_steps(nlohmann::ordered_json& summary) const
+{
+  const double steps = std::max(1, simulation_.clock().steps());
   if (auto* flow = simulation_.surroundings().flow()) {
     const long cells = flow->grid().ranks().domain().volume();
     summary["cells"] = cells;
@@ -683,11 +698,13 @@ void Recorder::finish(Ending ending, const std::string& reason)
   if (simulation_.structure().contact() != nullptr)
     report_contact(summary);
   if (audit_)
-    report_audit(summary);
-  for (std::size_t n = 0; n < phase_names.size(); ++n)
-    summary["phases"][phase_names[n]] = tally_.phases[n];
-  log_->info("{} at t = {:.6g} after {} steps in {:.1f} s", state, clock.now(), clock.steps(),
-             seconds_now() - started_);
+    audit_->report(simulation_.structure(), *log_, summary);
+}
+
+void Recorder::say_ending(const char* state) const
+{
+  log_->info("{} at t = {:.6g} after {} steps in {:.1f} s", state, simulation_.clock().now(),
+             simulation_.clock().steps(), seconds_now() - started_);
   if (options_.fluid)
     log_->info("largest max |div U| h/|U| of all steps: {:.1e}", tally_.largest_divergence);
   if (tally_.steps_beyond_limits > 0)
@@ -695,12 +712,6 @@ void Recorder::finish(Ending ending, const std::string& reason)
   if (simulation_.structure().sharp_folds() > 0)
     log_->warn("{} edges in all steps together folded by more than 45 degrees: refine the shell's mesh there",
                simulation_.structure().sharp_folds());
-  report_oscillations(summary);
-  output::write_summary(folder_, summary);
-  if (ending != Ending::Failed)
-    name_files();
-  if (ending == Ending::Stopped && !trouble.empty())
-    fail_run("{}", trouble);
 }
 
 void Recorder::name_files() const
@@ -713,6 +724,9 @@ void Recorder::name_files() const
     list += fmt::format(" {}", folder_.file("fields.pvd").string());
   if (walls_)
     list += fmt::format(" {}", folder_.file("walls.pvd").string());
+  for (const auto& observer : observers_)
+    for (const output::SeriesMark* mark : observer->series())
+      list += fmt::format(" {}", folder_.file(mark->name + ".pvd").string());
   if (!list.empty())
     log_->info("open together in ParaView:{}", list);
   log_->info("tables: {} (steps, probes, forces); summary: {}", folder_.file("*.csv").string(),

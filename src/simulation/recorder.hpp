@@ -18,10 +18,12 @@
 #include "output/progress.hpp"
 #include "output/run_folder.hpp"
 #include "output/series.hpp"
+#include "simulation/audit_record.hpp"
 #include "simulation/cadence.hpp"
 #include "simulation/checkpoint.hpp"
-#include "simulation/force_audit.hpp"
+#include "simulation/observer.hpp"
 #include "simulation/simulation.hpp"
+#include "simulation/statistics.hpp"
 #include "simulation/tally.hpp"
 
 namespace luff::simulation {
@@ -53,7 +55,10 @@ class Recorder {
     std::unique_ptr<output::CsvWriter> csv;
   };
   void open_tables(const output::EarlierOutput* earlier);
+  void open_observers(const Record* earlier);
   void open_probe(const config::ProbeOptions& options, const output::EarlierOutput* earlier);
+  void write_start();
+  void write_end(double t);
   void resume(const Record& earlier);
   [[nodiscard]] std::vector<const output::CsvWriter*> tables() const;
   [[nodiscard]] std::vector<const output::SeriesMark*> series() const;
@@ -64,7 +69,6 @@ class Recorder {
   void append_contact(std::vector<double>& row);
   void count_crossings();
   void report_contact(nlohmann::ordered_json& summary) const;
-  void open_audit(const output::EarlierOutput* earlier);
   void open_table_of_forces(const SheetRange& sheet, const output::EarlierOutput* earlier);
   void write_forces(double t, double dt);
   void write_motions(double t, double dt);
@@ -73,9 +77,10 @@ class Recorder {
   void write_shells(double t, double dt);
   [[nodiscard]] output::SurfaceSnapshot sheet_snapshot(const SheetRange& sheet, double t, double dt,
                                                        const std::vector<immersed::SideTraction>& tractions) const;
-  /// Largest mismatch of this step's audit over the mean force so far; no number where none was due.
-  [[nodiscard]] double audit_forces(const TimeStep& step);
-  void report_audit(nlohmann::ordered_json& summary) const;
+  void add_shear_history(const SheetRange& sheet, int side, output::SurfaceSnapshot& snapshot) const;
+  [[nodiscard]] double audit(const TimeStep& step);
+  void report_steps(nlohmann::ordered_json& summary) const;
+  void say_ending(const char* state) const;
   void show_progress(const StepRecord& record);
   void warn_about_limits(const StepRecord& record);
   void report_oscillations(nlohmann::ordered_json& summary);
@@ -98,8 +103,9 @@ class Recorder {
   std::vector<std::pair<int, output::CsvWriter>> motions_;  ///< of rigid sheets that move, by number
   std::optional<output::CsvWriter> steps_;
   std::vector<Probe> probes_;
-  std::optional<ForceAudit> audit_;
-  std::optional<output::CsvWriter> audit_table_;
+  std::optional<AuditRecord> audit_;
+  std::vector<std::unique_ptr<Observer>> observers_;
+  const StatisticsRecord* statistics_ = nullptr;  ///< one of them
 
   Tally tally_;
   double started_ = 0.0;

@@ -5,6 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/profile.hpp"
@@ -30,10 +33,20 @@ struct Tally {
   std::vector<double> audit;  ///< ForceAudit::numbers()
 };
 
+struct Statistics;
+
 /// What a recorder has to know to go on.
 struct Record {
   Tally tally;
   output::EarlierOutput output;
+  std::shared_ptr<Statistics> statistics = {};  ///< null where none were collected
 };
+
+/// When the last file of a series was written; nothing where there is none, or in a run that does not go on.
+[[nodiscard]] inline std::optional<double> last_instant(const Record* earlier, const std::string& series)
+{
+  const output::SeriesMark* mark = earlier != nullptr ? earlier->output.of(series) : nullptr;
+  return mark != nullptr && !mark->instants.empty() ? std::optional(mark->instants.back().time) : std::nullopt;
+}
 
 }  // namespace luff::simulation

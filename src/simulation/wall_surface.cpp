@@ -17,6 +17,8 @@ struct WallFace {
   std::array<std::array<double, 3>, 4> places{};  ///< [L]
   std::array<double, 3> shear{};                  ///< [M/(L T^2)]
   double pressure = 0.0;                          ///< [M/(L T^2)]
+  double mean_shear = 0.0;                        ///< TAWSS
+  double oscillation = 0.0;                       ///< OSI
 };
 
 WallFace wall_face(const grid::Grid& grid, const fluid::SideStress& stress, const Index3& cell, std::size_t n)
@@ -35,13 +37,18 @@ WallFace wall_face(const grid::Grid& grid, const fluid::SideStress& stress, cons
   return face;
 }
 
-std::vector<WallFace> own_faces(const fluid::FlowSolver& flow)
+std::vector<WallFace> own_faces(const fluid::FlowSolver& flow, const ShearHistory* history)
 {
   std::vector<WallFace> faces;
   for (const fluid::SideStress& stress : flow.side_stresses(/*walls_only=*/true)) {
     std::size_t n = 0;
     for_each_cell_in_order(stress.cells, [&](int i, int j, int k) {
-      faces.push_back(wall_face(flow.grid(), stress, {i, j, k}, n++));
+      const std::size_t place = faces.size();
+      WallFace& face = faces.emplace_back(wall_face(flow.grid(), stress, {i, j, k}, n++));
+      if (history == nullptr)
+        return;
+      face.mean_shear = history->mean_magnitude(place);
+      face.oscillation = history->oscillation(place);
     });
   }
   return faces;
@@ -68,14 +75,16 @@ std::vector<WallFace> gather(const std::vector<WallFace>& mine, MPI_Comm comm)
 
 }  // namespace
 
-output::SurfaceSnapshot wall_snapshot(const fluid::FlowSolver& flow, MPI_Comm comm)
+output::SurfaceSnapshot wall_snapshot(const fluid::FlowSolver& flow, MPI_Comm comm, const ShearHistory* history)
 {
   output::SurfaceSnapshot snapshot;
   std::map<Index3, int> numbers;  // of nodes
   std::vector<double> shear;
   std::vector<double> pressure;
   std::vector<double> side;
-  for (const WallFace& face : gather(own_faces(flow), comm)) {
+  std::vector<double> mean_shear;
+  std::vector<double> oscillation;
+  for (const WallFace& face : gather(own_faces(flow, history), comm)) {
     std::array<int, 4> corners{};
     for (int m = 0; m < 4; ++m) {
       const auto [entry, is_new] = numbers.try_emplace(face.nodes[m], static_cast<int>(snapshot.points.size()));
@@ -87,10 +96,34 @@ output::SurfaceSnapshot wall_snapshot(const fluid::FlowSolver& flow, MPI_Comm co
     shear.insert(shear.end(), face.shear.begin(), face.shear.end());
     pressure.push_back(face.pressure);
     side.push_back(face.side);
+    mean_shear.push_back(face.mean_shear);
+    oscillation.push_back(face.oscillation);
   }
   snapshot.face_fields = {
       {"shear_stress", 3, std::move(shear)}, {"pressure", 1, std::move(pressure)}, {"side", 1, std::move(side)}};
+  if (history != nullptr) {
+    snapshot.face_fields.push_back({"tawss", 1, std::move(mean_shear)});
+    snapshot.face_fields.push_back({"osi", 1, std::move(oscillation)});
+  }
   return snapshot;
+}
+
+std::vector<Vec3> wall_shear(const fluid::FlowSolver& flow)
+{
+  std::vector<Vec3> all;
+  for (const fluid::SideStress& stress : flow.side_stresses(/*walls_only=*/true))
+    all.insert(all.end(), stress.shear.begin(), stress.shear.end());
+  return all;
+}
+
+std::vector<std::int64_t> wall_faces(const fluid::FlowSolver& flow)
+{
+  std::vector<std::int64_t> all;
+  for (const fluid::SideStress& stress : flow.side_stresses(/*walls_only=*/true))
+    for_each_cell_in_order(stress.cells, [&](int i, int j, int k) {
+      all.push_back(flow.links().key(stress.axis, stepped({i, j, k}, stress.axis, stress.end)));
+    });
+  return all;
 }
 
 }  // namespace luff::simulation

@@ -2,6 +2,7 @@
 // A run that goes on from a checkpoint gives what one that was never interrupted gives, and nothing that happens to a
 // run or its checkpoints loses it.
 #include <algorithm>
+#include <numeric>
 
 #include <sys/resource.h>
 
@@ -132,6 +133,60 @@ TEST_F(Restart, LeavesTheSameBytesInEveryFile)
             0);
   EXPECT_EQ(read_summary(parts)["restarts"], 1);
   EXPECT_NE(folder.read("parts/log.txt").find("goes on from step 5, t = 0.1"), std::string::npos);
+}
+
+/// The small flag with walls, and with everything that can be written.
+std::string flag_that_leaves_everything()
+{
+  return changed(changed(small_flag, "y_min = { type = \"slip\" }", "y_min = { type = \"wall\" }"), "shells = {",
+                 "walls = { every = 0.05 }\nshells = {") +
+         all_output;
+}
+
+const Words statistics_names{"statistics/u_x",
+                             "statistics/u_y",
+                             "statistics/p",
+                             "statistics/uu_0",
+                             "statistics/uu_4",
+                             "statistics/pp",
+                             "statistics/sheets/impulse",
+                             "statistics/sheets/magnitude",
+                             "statistics/walls/impulse",
+                             "statistics/walls/magnitude"};
+
+TEST_F(Restart, LeavesTheSameBytesOfStatisticsRakesSectionsAndSurfaces)
+{
+  prepare(flag_that_leaves_everything());
+  const Outcome run = go_on();
+  ASSERT_EQ(run.status, 0) << run.said;
+  expect_same_files(whole, parts);
+  for (const std::string& name : statistics_names)
+    EXPECT_EQ(difference(whole / "checkpoint-00000010.h5", parts / "checkpoint-00000010.h5", {name}), 0) << name;
+  EXPECT_NEAR(read_summary(parts)["statistics"]["time"], 0.16, 1e-12);
+}
+
+TEST_F(Restart, TakesStatisticsFromOtherRanks)
+{
+  prepare(flag_that_leaves_everything(), 2);
+  const Outcome run = go_on();
+  ASSERT_EQ(run.status, 0) << run.said;
+  for (const std::string name : {"statistics/u_x", "statistics/uu_0", "statistics/pp", "statistics/sheets/magnitude"})
+    EXPECT_LT(difference(whole / "checkpoint-00000010.h5", parts / "checkpoint-00000010.h5", {name}), 1e-7) << name;
+  // Walls are in the order of the ranks that wrote them.
+  const auto total = [&](const std::filesystem::path& of) {
+    const auto all = numbers(of / "checkpoint-00000010.h5", "statistics/walls/magnitude");
+    return std::accumulate(all.begin(), all.end(), 0.0);
+  };
+  EXPECT_GT(total(whole), 0.0);
+  EXPECT_NEAR(total(parts) / total(whole), 1.0, 1e-7);
+}
+
+TEST_F(Restart, BeginsStatisticsAnewThatStartAtAnotherTime)
+{
+  prepare(flag_that_leaves_everything());
+  const Outcome run = go_on({"--set", "output.statistics.start=0.12"});
+  ASSERT_EQ(run.status, 0) << run.said;
+  EXPECT_NEAR(read_summary(parts)["statistics"]["time"], 0.08, 1e-12);
 }
 
 TEST_F(Restart, GivesTheSameBitsOnTwoThreads)

@@ -117,7 +117,9 @@ TEST(ACoupledRun, AuditsItsForcesAndWork)
   const Table audit = read_table(folder.path() / "out/audit.csv");
   EXPECT_EQ(audit.head, (Columns{"t [time]", "by_traction_flag_x [force]", "by_traction_flag_y [force]",
                                  "by_traction_flag_z [force]", "by_momentum_flag_x [force]",
-                                 "by_momentum_flag_y [force]", "by_momentum_flag_z [force]"}));
+                                 "by_momentum_flag_y [force]", "by_momentum_flag_z [force]", "kinetic [energy]",
+                                 "growth [power]", "dissipation [power]", "power_of_sides [power]",
+                                 "power_of_surfaces [power]", "power_of_body_force [power]", "missing [power]"}));
   EXPECT_EQ(audit.rows.size(), 10U);
   const nlohmann::json summary = read_summary(folder.path() / "out");
   const nlohmann::json verdict = summary["audit"]["flag"];
@@ -127,9 +129,67 @@ TEST(ACoupledRun, AuditsItsForcesAndWork)
   EXPECT_GT(verdict["mismatch_of_means"], 0.0);
   EXPECT_LT(summary["audit"]["work"]["mismatch"], 0.02);  // twenty steps from a sudden start
 
+  const nlohmann::json energy = summary["audit"]["energy"];
+  EXPECT_EQ(energy["audits"], 10);
+  EXPECT_GT(energy["dissipation"], 0.0);
+  EXPECT_NEAR(energy["missing"].get<double>(),
+              energy["power_of_sides"].get<double>() + energy["power_of_surfaces"].get<double>() -
+                  energy["dissipation"].get<double>() - energy["growth"].get<double>(),
+              1e-12);
+  EXPECT_NEAR(energy["kinetic"].get<double>(), 0.5 * 3.0 * 2.0, 0.2);  // a stream of speed 1 through a box of 3 x 2 x 1
+
   run_well(folder, small_flag, "without", {"--set", "output.audit=0"});
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "without/audit.csv"));
   EXPECT_FALSE(read_summary(folder.path() / "without").contains("audit"));
+}
+
+TEST(ACoupledRun, LeavesStatisticsRakesSectionsAndSurfacesWhenTheyAreDue)
+{
+  const WorkFolder folder;
+  run_well(folder, small_flag + all_output);
+  const auto out = folder.path() / "out";
+  // Steps end at 0.02, 0.04, ..., 0.1.
+  EXPECT_EQ(read_series(out / "slice-middle.pvd").size(), 3U);  // 0, 0.06, 0.1
+  EXPECT_EQ(read_series(out / "iso-slow.pvd").size(), 3U);
+  EXPECT_EQ(read_series(out / "statistics.pvd").size(), 2U);  // 0.06, 0.1
+  EXPECT_NEAR(read_summary(out)["statistics"]["time"], 0.06, 1e-12);
+  for (const char* field : {"velocity_mean", "velocity_rms", "velocity_covariance", "pressure_mean", "pressure_rms"})
+    EXPECT_NE(folder.read("out/statistics/statistics_000001.vtr").find("Name=\"" + std::string(field) + "\""),
+              std::string::npos)
+        << field;
+  for (const char* field : {"tawss_minus", "tawss_plus", "osi_minus", "osi_plus"})
+    EXPECT_NE(folder.read("out/shell-flag/shell-flag_000000.vtp").find("Name=\"" + std::string(field) + "\""),
+              std::string::npos)
+        << field;
+  EXPECT_NE(folder.read("out/log.txt").find("slice-middle.pvd"), std::string::npos);
+
+  const Table rake = read_table(out / "rake-wake.csv");
+  EXPECT_EQ(rake.head, (Columns{"t [time]", "distance [length]", "place_x [length]", "place_y [length]",
+                                "place_z [length]", "velocity_x [velocity]", "velocity_y [velocity]",
+                                "velocity_z [velocity]", "pressure [pressure]"}));
+  ASSERT_EQ(rake.rows.size(), 3U * 5);  // 0, 0.04, 0.08
+  // Its first point is the probe's.
+  const Table probe = read_table(out / "probe-wake.csv");
+  for (const int instant : {1, 2})
+    for (int column = 0; column < 4; ++column)
+      EXPECT_EQ(rake.rows[5 * instant][5 + column], probe.rows[2 * instant - 1][1 + column]);
+
+  const Table section = read_table(out / "section-span.csv");
+  EXPECT_EQ(section.head, (Columns{"t [time]", "from [length]", "to [length]", "force_per_length_x [force/length]",
+                                   "force_per_length_y [force/length]", "force_per_length_z [force/length]"}));
+  ASSERT_EQ(section.rows.size(), 2U * 3);  // 0.04, 0.08
+  const Table forces = read_table(out / "forces-flag.csv");
+  for (int instant = 0; instant < 2; ++instant)
+    for (int d = 0; d < 3; ++d) {
+      double sum = 0.0;
+      double size = 0.0;
+      for (int bin = 0; bin < 3; ++bin) {
+        const std::vector<double>& row = section.rows[3 * instant + bin];
+        sum += (row[2] - row[1]) * row[3 + d];
+        size += std::abs((row[2] - row[1]) * row[3 + d]);
+      }
+      EXPECT_NEAR(sum, forces.rows[2 * instant + 1][1 + d], 1e-13 * std::max(size, 1e-3)) << instant << d;
+    }
 }
 
 TEST(ACoupledRun, WritesFlowAndShellAtTheSameInstantsEachOnce)

@@ -50,6 +50,35 @@ name = "wake"
 point = [1.5, 0.0, 0.0]
 )toml";
 
+/// What can be asked of the small flag's output besides.
+inline const std::string all_output = R"toml([output.statistics]
+start = 0.04
+every = 0.06
+[[output.rake]]
+name = "wake"
+from = [1.5, 0.0, 0.0]
+to = [1.5, 0.8, 0.3]
+points = 5
+every = 0.04
+[[output.section]]
+name = "span"
+shell = "flag"
+axis = [0, 0, 1]
+bins = 3
+every = 0.04
+[[output.slice]]
+name = "middle"
+point = [0, 0, 0.1]
+normal = [0, 0, 1]
+every = 0.05
+[[output.isosurface]]
+name = "slow"
+of = "velocity"
+value = 0.5
+what = ["pressure", "q_criterion"]
+every = 0.05
+)toml";
+
 /// Two flags in a stream that loads press together from both sides; they meet within 0.62.
 inline const std::string two_flags_that_meet = R"toml(title = "Two flags that meet"
 [time]
