@@ -14,6 +14,7 @@
 #include "output/checkpoint_folder.hpp"
 #include "output/log.hpp"
 #include "output/series.hpp"
+#include "simulation/added_mass.hpp"
 #include "simulation/build.hpp"
 #include "simulation/build_nodes.hpp"
 #include "simulation/check_flow.hpp"
@@ -223,7 +224,10 @@ void check_case(MPI_Comm comm, const std::filesystem::path& file, const config::
   }
   if (!marches(options))
     (void)build_still(options);
-  const std::vector<std::string> groups = describe_groups(options, *structure, grid.get());
+  std::vector<std::string> groups = describe_groups(options, *structure, grid.get());
+  if (grid && !options.shells.empty())
+    groups.push_back(
+        describe_coupling(added_mass_ratio(*build_simulation(comm, options)), build_policy(options.coupling).scheme));
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   if (rank != 0)

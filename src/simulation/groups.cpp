@@ -170,11 +170,9 @@ void describe_shell(const config::Case& options, const config::ShellOptions& she
   if (speed > 0.0)
     lines.push_back(fmt::format("shell '{}': bending stiffness at rest K_B = B/(rho_f U^2 L^3) = {}", shell.name,
                                 shown(stiffness / (rho * speed * speed * length * length * length))));
-  // Loose coupling blew up at M <= 1 within twenty steps (docs/numerics/coupling.md).
+  // Added mass is about as heavy as a body of fluid as thick as the shell is long (docs/numerics/coupling.md).
   if (options.coupling.scheme == config::CouplingScheme::Loose && mass_ratio < 10.0)
-    lines.push_back(
-        fmt::format("WARNING: loose coupling is unstable for shells this light (it needs a mass ratio of about "
-                    "10 or more); set coupling.scheme = \"strong\""));
+    lines.push_back("WARNING: loose coupling is unstable for light shells: luff check finds out whether this one is");
 }
 
 void describe_mesh(const SheetRange& sheet, std::vector<std::string>& lines)

@@ -1,18 +1,25 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Coupling iterations per step against mass ratio and acceleration, as a table.
+"""Coupling iterations per step against mass ratio and scheme, as a table.
 
-Usage: validation/coupling/iterations.py [MASS_RATIO ...]     (default 1 0.1 0.01)
+Usage: validation/coupling/iterations.py [--steps N] [--schemes quasi-newton aitken loose] [MASS_RATIO ...]
 """
+import argparse
 import json
 import math
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
 here = Path(__file__).resolve().parent
 luff = here.parent.parent / "luff"
+time_step = 0.01  # of pinned-flag.toml
+
+settings_of = {
+    "quasi-newton": [],
+    "aitken": ["coupling.acceleration='aitken'"],
+    "loose": ["coupling.scheme='loose'"],
+}
 
 
 def shell_of(mass_ratio):
@@ -22,14 +29,14 @@ def shell_of(mass_ratio):
     return thickness, mass_ratio / thickness, stretching / thickness
 
 
-def run(mass_ratio, *settings):
+def run(mass_ratio, steps, settings):
     thickness, density, young = shell_of(mass_ratio)
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "run"
         command = [luff, "run", here / "pinned-flag.toml", "--out", out, "--threads", "1"]
         for key, value in {"thickness": thickness, "density": density, "material.young": young}.items():
             command += ["--set", f"shell.0.{key}={value!r}"]
-        for setting in settings:
+        for setting in [f"time.end={steps * time_step!r}", *settings]:
             command += ["--set", setting]
         status = subprocess.run(command, capture_output=True, text=True).returncode
         summary = json.loads((out / "summary.json").read_text())
@@ -38,11 +45,17 @@ def run(mass_ratio, *settings):
     return f"{summary['mean_coupling_iterations']:.2f} ({summary['max_coupling_iterations']}), {summary['halved_steps']} halved"
 
 
-print("mass ratio | IQN-ILS mean (max) | Aitken mean (max) | loose")
-for mass_ratio in [float(a) for a in sys.argv[1:]] or [1.0, 0.1, 0.01]:
-    row = [
-        run(mass_ratio),
-        run(mass_ratio, "coupling.acceleration='aitken'"),
-        run(mass_ratio, "coupling.scheme='loose'", "time.end=2.0"),
-    ]
-    print(f"{mass_ratio:g} | " + " | ".join(row), flush=True)
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("mass_ratios", nargs="*", type=float, default=[1.0, 0.1, 0.01])
+    parser.add_argument("--steps", type=int, default=60)
+    parser.add_argument("--schemes", nargs="+", choices=list(settings_of), default=list(settings_of))
+    options = parser.parse_args()
+    print(" | ".join(["mass ratio", *options.schemes]) + "     mean (max) iterations, steps halved")
+    for mass_ratio in options.mass_ratios:
+        row = [run(mass_ratio, options.steps, settings_of[scheme]) for scheme in options.schemes]
+        print(f"{mass_ratio:g} | " + " | ".join(row), flush=True)
+
+
+if __name__ == "__main__":
+    main()

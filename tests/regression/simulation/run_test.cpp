@@ -229,6 +229,62 @@ TEST(ACoupledRun, GivesTheSameBitsOnOneAndTwoThreads)
   expect_same_numbers(folder, "one", "two");
 }
 
+/// A sheet across a channel that is open at both ends: all of the fluid moves with it, 1 x 3 over 0.01 x 100.
+TEST(Check, FindsTheAddedMassOfAPistonAndSaysWhatItMeansForCoupling)
+{
+  const std::string piston = R"toml(title = "Piston"
+[time]
+end = 1
+step = 0.01
+[fluid]
+density = 1.0
+viscosity = 1e-9
+[grid]
+x = { from = -1.0, to = 2.0, cells = 36, refine = { from = -0.3, to = 0.3, spacing = 0.05 } }
+y = { from = 0.0, to = 1.0, cells = 8 }
+z = { from = 0.0, to = 0.5, cells = 4 }
+[boundary]
+x_min = { type = "pressure", pressure = 0 }
+x_max = { type = "pressure", pressure = 0 }
+y_min = { type = "slip" }
+y_max = { type = "slip" }
+z_min = { type = "slip" }
+z_max = { type = "slip" }
+[[shell]]
+name = "piston"
+mesh = { shape = "rectangle", origin = [0.013, 0, 0], a = [0, 1, 0], b = [0, 0, 0.5], divisions = [2, 1] }
+thickness = 0.01
+density = 100.0
+material = { model = "saint-venant-kirchhoff", young = 1e6, poisson = 0.3 }
+[[shell.support]]
+where = { all = true }
+fixed = ["y", "z"]
+)toml";
+  const WorkFolder folder;
+  folder.write("case.toml", piston);
+  const auto told = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> command{"check", "case.toml"};
+    command.insert(command.end(), more.begin(), more.end());
+    return luff(folder, command).said;
+  };
+  const auto ratio = [](const std::string& said) {
+    const std::string words = "fluid that moves with the shells: up to ";
+    const auto at = said.find(words);
+    EXPECT_NE(at, std::string::npos) << said;
+    return at == std::string::npos ? 0.0 : std::stod(said.substr(at + words.size()));
+  };
+  const std::string light = told({});
+  EXPECT_NEAR(ratio(light), 3.0, 0.03);  // found to two per cent
+  EXPECT_NE(light.find("loose coupling would be unstable, its limit is 0.25; strong coupling is right"),
+            std::string::npos)
+      << light;
+  const std::string loose = told({"--set", "coupling.scheme=loose"});
+  EXPECT_NE(loose.find("WARNING: fluid that moves with the shells"), std::string::npos) << loose;
+  const std::string heavy = told({"--set", "shell.0.density=1500"});
+  EXPECT_NEAR(ratio(heavy), 0.2, 0.002);
+  EXPECT_NE(heavy.find("loose coupling is stable, its limit is 0.25"), std::string::npos) << heavy;
+}
+
 // Pressed together with half a unit of traction from either side, in one layer of cells at the end.
 TEST(ACoupledRun, KeepsTwoFlagsThatMeetApart)
 {
