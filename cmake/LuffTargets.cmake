@@ -1,7 +1,7 @@
 # luff_library(NAME LINK targets...): one static library per folder of src, so that a wrong include fails to link.
 add_library(luff_flags INTERFACE)
 # GCC 12 sees uninitialised values in its own AVX-512 headers (PR 105593).
-target_compile_options(luff_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wno-maybe-uninitialized -fno-math-errno -fno-trapping-math)
+target_compile_options(luff_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> -fno-math-errno -fno-trapping-math)
 if(LUFF_NATIVE)
   target_compile_options(luff_flags INTERFACE -march=native)
 endif()
@@ -9,6 +9,9 @@ if(LUFF_SANITIZE)
   target_compile_options(luff_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_compile_definitions(luff_flags INTERFACE _GLIBCXX_ASSERTIONS)
   target_link_options(luff_flags INTERFACE -fsanitize=address,undefined)
+endif()
+if(LUFF_FUZZ)
+  target_compile_options(luff_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 function(luff_library name)
