@@ -14,6 +14,7 @@
 #include <vtkSTLReader.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkXMLDataElement.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
@@ -26,6 +27,31 @@ namespace luff::surface {
 namespace {
 
 using File = std::filesystem::path;
+
+/// A reader that knows of an empty PointData in pieces that have none: VTK names that element when it complains about
+/// an array of CellData that is too short, whether it is there or not.
+template <class Reader>
+class WithPointData : public Reader {
+ public:
+  static WithPointData* New()
+  {
+    auto* reader = new WithPointData;
+    reader->InitializeObjectBase();
+    return reader;
+  }
+
+ protected:
+  int ReadPiece(vtkXMLDataElement* piece) override
+  {
+    const int read = Reader::ReadPiece(piece);
+    if (read != 0 && this->PointDataElements[this->Piece] == nullptr)
+      this->PointDataElements[this->Piece] = none_;
+    return read;
+  }
+
+ private:
+  vtkNew<vtkXMLDataElement> none_;
+};
 
 template <class Reader>
 auto read(Reader& reader, const File& file, const std::string& kind)
@@ -151,8 +177,8 @@ MarkedMesh read_vtk(const std::filesystem::path& file, const std::string& kind)
   if (kind == ".stl")
     return read_as<vtkSTLReader>(file, kind);
   if (kind == ".vtu")
-    return read_as<vtkXMLUnstructuredGridReader>(file, kind);
-  return read_as<vtkXMLPolyDataReader>(file, kind);
+    return read_as<WithPointData<vtkXMLUnstructuredGridReader>>(file, kind);
+  return read_as<WithPointData<vtkXMLPolyDataReader>>(file, kind);
 }
 
 }  // namespace luff::surface

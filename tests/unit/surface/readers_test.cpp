@@ -176,6 +176,15 @@ TEST_F(Readers, UnstructuredGridsOfOtherCellsAreRefused)
   EXPECT_NE(refusal(write("four.vtu", vtu("0 1 2 3 0 1 2", "4 7", "5 5"))), "accepted");
 }
 
+TEST_F(Readers, FieldsShorterThanTheirFileSaysAreRefused)
+{
+  const std::string fibre = data_array("type=\"Float64\" Name=\"fibre\" NumberOfComponents=\"3\"", "1 0 0 0");
+  for (const std::string place : {"CellData", "PointData"}) {
+    const std::string data = "<" + place + ">" + fibre + "</" + place + ">\n";
+    EXPECT_NE(refusal(write("short.vtu", vtu("0 1 2 0 2 3", "3 6", "5 5", data))).find("fibre"), std::string::npos);
+  }
+}
+
 TEST_F(Readers, PhysicalGroupsOfEveryGmshFormatMakeSets)
 {
   for (const auto& file : {write("2.msh", test::gmsh_2_ascii()), write("2b.msh", test::gmsh_2_binary()),
