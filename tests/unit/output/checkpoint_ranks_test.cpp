@@ -153,7 +153,8 @@ TEST_F(Checkpoints, OfAnotherFormatAreNotRead)
 {
   write(file);
   EXPECT_EQ(broken_seal(MPI_COMM_WORLD, file, checkpoint_format + 1),
-            "it has format 1, and this version reads format 2");
+            "it has format " + std::to_string(checkpoint_format) + ", and this version reads format " +
+                std::to_string(checkpoint_format + 1));
 }
 
 TEST_F(Checkpoints, LackingWhatIsAskedForAreRefusedOnEveryRank)
