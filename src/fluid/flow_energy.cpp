@@ -76,24 +76,13 @@ struct SidePower {
   double dissipation = 0.0;
 };
 
-/// The faces of one side of this rank's block: the cells whose low faces they are.
-IndexBox faces_of_side(const grid::Grid& grid, int axis, int end)
-{
-  IndexBox faces = grid.owned();
-  faces.lo[axis] = end == 0 ? faces.lo[axis] : faces.hi[axis] - 1;
-  faces.hi[axis] = faces.lo[axis] + 1;
-  faces.lo[axis] += end;
-  faces.hi[axis] += end;
-  return faces;
-}
-
 SidePower power_of_side(const Fields& f, int axis, int end)
 {
   const View<const double> p = f.flow.state().p.view();
   const View<const double> p_before = f.flow.state().p_before.view();
   const double outwards = end == 0 ? -1.0 : 1.0;
   SidePower sum;
-  for_each_cell_in_order(faces_of_side(f.grid, axis, end), [&](int i, int j, int k) {
+  for_each_cell_in_order(side_faces(f.grid, f.grid.owned(), axis, end), [&](int i, int j, int k) {
     const Index3 face{i, j, k};
     const Index3 below = stepped(face, axis, -1);
     const Index3 inside = end == 0 ? face : below;

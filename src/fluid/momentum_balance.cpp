@@ -26,21 +26,6 @@ double face_pressure(const grid::Grid& grid, const View<const double>& p, int ax
   return above * p(face) + (1.0 - above) * p(below);
 }
 
-/// The cells whose low faces are the box's low (end 0) or high (end 1) side, of those that this rank answers for: the
-/// rank of the cell inside the box.
-IndexBox side_faces(const grid::Grid& grid, const IndexBox& box, int axis, int end)
-{
-  IndexBox inside = box;
-  if (end == 0)
-    inside.hi[axis] = inside.lo[axis] + 1;
-  else
-    inside.lo[axis] = inside.hi[axis] - 1;
-  IndexBox faces = intersection(inside, grid.owned());
-  faces.lo[axis] += end;
-  faces.hi[axis] += end;
-  return faces;
-}
-
 Vec3 outflow(const grid::Grid& grid, const IndexBox& box, const FlowOverStep& flow, double viscosity)
 {
   Vec3 sum = Vec3::Zero();
@@ -60,6 +45,19 @@ Vec3 outflow(const grid::Grid& grid, const IndexBox& box, const FlowOverStep& fl
 }
 
 }  // namespace
+
+IndexBox side_faces(const grid::Grid& grid, const IndexBox& box, int axis, int end)
+{
+  IndexBox inside = box;
+  if (end == 0)
+    inside.hi[axis] = inside.lo[axis] + 1;
+  else
+    inside.lo[axis] = inside.hi[axis] - 1;
+  IndexBox faces = intersection(inside, grid.owned());
+  faces.lo[axis] += end;
+  faces.hi[axis] += end;
+  return faces;
+}
 
 Vec3 momentum_lost(const grid::Grid& grid, const IndexBox& box, const FlowOverStep& flow, double viscosity)
 {

@@ -28,4 +28,8 @@ struct FlowOverStep {
 [[nodiscard]] Vec3 momentum_lost(const grid::Grid& grid, const IndexBox& box, const FlowOverStep& flow,
                                  double viscosity);
 
+/// The cells whose low faces are the low (end 0) or high (end 1) side of a box, of those that this rank answers for:
+/// the rank of the cell inside the box.
+[[nodiscard]] IndexBox side_faces(const grid::Grid& grid, const IndexBox& box, int axis, int end);
+
 }  // namespace luff::fluid

@@ -2,7 +2,7 @@
 // The force on whatever stands in a box of cells, from the momentum of the flow through the box.
 #pragma once
 
-#include "immersed/cell_metric.hpp"
+#include "fluid/gradient_flux.hpp"
 #include "parallel/vector_field.hpp"
 #include "support/flow.hpp"
 
@@ -88,27 +88,10 @@ class ControlVolume {
     // Of the cell above, where the face is.
     const double w = curvilinear ? 0.5 : 0.5 * grid.width(axis, below[axis]) / grid.distance(axis, cell[axis]);
     const auto p = [&](const Index3& c) { return 1.5 * state.p.view()(c) - 0.5 * state.p_before.view()(c); };
-    const Vec3 gradient = curvilinear
-                              ? curvilinear_gradient_flux(axis, cell)
-                              : Vec3(grid.area(axis, cell[0], cell[1], cell[2]) / grid.distance(axis, cell[axis]) *
-                                     (luff::at(u, cell) - luff::at(u, below)));
+    const Vec3 gradient = fluid::gradient_flux(grid, u, axis, cell);
     return 0.5 * views(state.U)[axis](cell) * (luff::at(u, cell) + luff::at(u, below)) -
            flow_.solver.options().viscosity * gradient +
            (w * p(cell) + (1.0 - w) * p(below)) * grid.area_vector(axis, cell[0], cell[1], cell[2]);
-  }
-
-  /// a_f (u_N - u_P) + (w(P) + w(N))/2, w_a = sum_{b != a} G_ab <d_b>.
-  [[nodiscard]] Vec3 curvilinear_gradient_flux(int axis, const Index3& cell) const
-  {
-    const grid::Curvilinear& m = *immersed::curvilinear_metric(flow_.grid);
-    const auto u = views(flow_.solver.state().u);
-    const Index3 below = stepped(cell, axis, -1);
-    Vec3 flux = 0.5 * (m.G[axis](cell) + m.G[axis](below)) * (luff::at(u, cell) - luff::at(u, below));
-    for (const Index3& c : {cell, below})
-      for (const int b : {(axis + 1) % 3, (axis + 2) % 3})
-        flux +=
-            0.25 * m.G[grid::symmetric(axis, b)](c) * (luff::at(u, stepped(c, b, 1)) - luff::at(u, stepped(c, b, -1)));
-    return flux;
   }
 
   const TestFlow& flow_;
