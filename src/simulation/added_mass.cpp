@@ -52,11 +52,12 @@ double added_mass_ratio(Simulation& simulation)
   const shell::Shell& shell = *structure.shells().shell;
   const TimeStep step = simulation.clock().next(flow.step_rates());
   const Eigen::VectorXd d_0 = structure.predict(step);
-  flow.begin_step(step, structure.motion(d_0, step));
+  Eigen::VectorXd d = along_normals(shell, d_0.size());
+  // Predicted to move: a fluid still at rest has no speed of its own that its divergence could be small against.
+  flow.begin_step(step, structure.motion(d_0 + small * structure.length() * d, step));
   const immersed::SheetLoads loads_0 = flow.loads(structure.velocity(d_0, step));
   const Eigen::VectorXd unloaded = structure.solve(step, difference(loads_0, loads_0), d_0);
 
-  Eigen::VectorXd d = along_normals(shell, d_0.size());
   const auto of_shells = [n = Eigen::Index{3} * shell.n_vertices()](const Eigen::VectorXd& all) { return all.head(n); };
   double ratio = 0.0;
   for (int n = 0; n < most_projections; ++n) {
