@@ -62,6 +62,7 @@ Checkpoint Dynamics::checkpoint() const
 void Dynamics::restore(const Checkpoint& checkpoint)
 {
   state_ = checkpoint.state;
+  solution_ = {};
   ledger_ = checkpoint.ledger;
   fluid_forces_ = checkpoint.fluid_forces;
   linearisation_ = checkpoint.linearisation;
@@ -139,7 +140,10 @@ Held::HeldRates Dynamics::held_rates(double dt) const
 
 Kinematics Dynamics::kinematics(const Eigen::VectorXd& positions, double dt, const Held::HeldRates& held) const
 {
-  Kinematics k = options_.scheme.kinematics(state_, positions, dt);
+  Eigen::VectorXd moved = positions - state_.x;
+  if (solution_.positions.size() > 0 && positions == solution_.positions)
+    moved += solution_.rounding;
+  Kinematics k = options_.scheme.kinematics(state_, moved, dt);
   shell_.clear_held(k.a);
   shell_.clear_held(k.v);
   k.a += held.acceleration;
@@ -239,6 +243,7 @@ Dynamics::Trial Dynamics::solve(double t_new, double dt, const Eigen::VectorXd& 
           },
   };
   trial.report = newton(shell_, equilibrium, options_.newton, tangent_, trial.positions, when(t_new));
+  solution_ = {trial.positions, trial.report.rounding};
   // From here on a new tangent is cheaper than more iterations with the old one.
   constexpr int many = 6;
   slow_ = slow_ || trial.report.iterations > many;
@@ -250,6 +255,7 @@ Folds Dynamics::accept(const Eigen::VectorXd& positions, double t_new, double dt
   const Folds report = check_folds(shell_, positions, options_.fold_limit, when(t_new), t_new);
   const Kinematics k = kinematics(positions, dt);
   const State before = std::exchange(state_, {positions, k.v, k.a, t_new});
+  solution_ = {};
   book_work(before, fluid_forces);
   ++step_;
   if (slow_)

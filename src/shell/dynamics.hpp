@@ -26,7 +26,7 @@ struct EnergyLedger {
   double contact = 0;  ///< of the barriers between surfaces that come close
   double damping_work = 0;
   double external_work = 0;
-  double fluid_work = 0;  ///< part of it: of the forces given to solve()
+  double fluid_work = 0;    ///< part of it: of the forces given to solve()
   double support_work = 0;  ///< done by supports that move
 };
 
@@ -89,7 +89,8 @@ class Dynamics {
 
   /// Second-order extrapolation x + dt v + dt^2/2 a, with what supports hold in its place.
   Eigen::VectorXd predicted_positions(double dt) const;
-  /// Rates at t + dt that the scheme gives to new positions, those of the supports where they hold.
+  /// Rates at t + dt that the scheme gives to new positions, those of the supports where they hold. For what solve()
+  /// gave last they balance the forces to more digits than the positions have.
   Kinematics kinematics(const Eigen::VectorXd& positions, double dt) const;
 
   /// Positions at t_new = t + dt in balance with the fluid's nodal forces (3n) at t_new, starting Newton from `guess`.
@@ -110,6 +111,13 @@ class Dynamics {
     Held::HeldRates held;
     double t;  ///< of the balance
     double dt;
+  };
+
+  /// Of the last solve() since the accepted state, with the digits that positions far from the origin have no place
+  /// for: rates are differences over a short step, and without these digits they would not balance.
+  struct Solution {
+    Eigen::VectorXd positions;
+    Eigen::VectorXd rounding;
   };
 
   void start(const Eigen::VectorXd& v0);
@@ -144,6 +152,7 @@ class Dynamics {
   BlockMatrix damping_;
   KeptTangent tangent_;
   Linearisation linearisation_;
+  Solution solution_;
   std::unique_ptr<ContactStep> contact_;  ///< null: none
   bool slow_ = false;                     ///< a solve since the last accept took many iterations
   int step_ = 0;

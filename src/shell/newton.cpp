@@ -98,7 +98,11 @@ NewtonReport newton(const Shell& shell, const Equilibrium& equilibrium, const Ne
     ++report.iterations;
     if (!dx.allFinite())
       fail(shell, report, x, dx, when);
-    x += report.increment > policy.max_increment ? policy.max_increment / report.increment * dx : dx;
+    if (report.increment > policy.max_increment)
+      dx *= policy.max_increment / report.increment;
+    const Eigen::VectorXd before = x;
+    x += dx;
+    report.rounding = dx - (x - before);
     if (report.increment <= policy.tolerance)
       return report;
     if (renewed && report.increment < policy.round_off && !is_shrinking(report.increments)) {

@@ -31,6 +31,7 @@ struct NewtonReport {
   std::optional<int> negative_pivots;
   std::vector<double> residuals;  ///< of every iteration
   std::vector<double> increments;
+  Eigen::VectorXd rounding;  ///< what the last increment adds to x beyond the digits of x
 };
 
 struct Equilibrium {

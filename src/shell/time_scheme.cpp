@@ -27,10 +27,10 @@ TimeScheme TimeScheme::midpoint()
   return {0, 0.5, 0.5, 1, 0.5};
 }
 
-Kinematics TimeScheme::kinematics(const State& before, const Eigen::VectorXd& x, double dt) const
+Kinematics TimeScheme::kinematics(const State& before, const Eigen::VectorXd& moved, double dt) const
 {
   Kinematics k;
-  k.a = 1 / (beta_ * dt * dt) * (x - before.x - dt * before.v) - (0.5 / beta_ - 1) * before.a;
+  k.a = 1 / (beta_ * dt * dt) * (moved - dt * before.v) - (0.5 / beta_ - 1) * before.a;
   k.v = before.v + dt * ((1 - gamma_) * before.a + gamma_ * k.a);
   return k;
 }

@@ -37,8 +37,8 @@ class TimeScheme {
   /// momentum exactly. The acceleration of the state is the mean of the step.
   static TimeScheme midpoint();
 
-  /// Rates that follow from the new positions.
-  Kinematics kinematics(const State& before, const Eigen::VectorXd& x, double dt) const;
+  /// Rates that follow from what the step moved, x - x_n.
+  Kinematics kinematics(const State& before, const Eigen::VectorXd& moved, double dt) const;
   /// Time at which the motion has the acceleration of the new state: the end of the step, or its middle.
   double acceleration_time(double t_before, double dt) const { return t_before + acceleration_at_ * dt; }
   /// Value at the point of balance of something that is `before` at the start of the step and `after` at its end.

@@ -49,12 +49,14 @@ def main():
                     "-DLUFF_BENCHMARKS=ON"], check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["ninja", "-C", build, "benchmark_shell_free_flight"], check=True, stdout=subprocess.DEVNULL)
     figure, axes = plt.subplots(1, 3, figsize=(13, 4))
-    print("scheme | mass | largest energy error | its trend | momentum | angular momentum | Newton iterations per step")
+    print("scheme | mass | largest energy error | its trend | momentum: largest, last | angular momentum: largest, last | "
+          "Newton iterations per step")
     for scheme, mass in runs:
         rows = fly(scheme, mass, options.steps, options.out)
         largest = {key: max(abs(row[key]) for row in rows) for key in ("energy", "momentum", "angular_momentum")}
-        print(f"{scheme} | {mass} | {largest['energy']:.1e} | {trend(rows):+.1e} | {largest['momentum']:.1e} | "
-              f"{largest['angular_momentum']:.1e} | {rows[-1]['newton_iterations'] / len(rows):.2f}")
+        both = {key: f"{largest[key]:.1e}, {abs(rows[-1][key]):.1e}" for key in largest}
+        print(f"{scheme} | {mass} | {largest['energy']:.1e} | {trend(rows):+.1e} | {both['momentum']} | "
+              f"{both['angular_momentum']} | {rows[-1]['newton_iterations'] / len(rows):.2f}")
         if mass == "lumped":
             for axis, key in zip(axes, largest):
                 axis.semilogy([row["step"] for row in rows], [abs(row[key]) + 1e-17 for row in rows], label=scheme, lw=0.7)
