@@ -5,7 +5,9 @@
 Usage: validation/shell-benchmarks/compare.py [NAME...] [--out DIR] [--list]
 
 Each benchmark runs on the meshes listed here. A table is printed: where the run ended, the largest difference over the
-published points as a part of the largest published value, and the last published point with what was computed there. Writes
+published points as a part of the largest published value, and the last published point with what was computed there. Where three
+meshes of a pattern halve the spacings, the order with which that value converges and what it converges to by Richardson follow:
+p = log2 (u1 - u2)/(u2 - u3), u = u3 + (u3 - u2)/(2^p - 1). Writes
 DIR/<name>.png (default validation/shell-benchmarks/results). A finished run in DIR is used again.
 """
 import argparse
@@ -111,7 +113,7 @@ BENCHMARKS = {
             Curve("-u", "end", "x", -1, table("sze2004_cantilever_end_shear.csv", "minus_u")),
             Curve("w", "end", "z", 1, table("sze2004_cantilever_end_shear.csv", "w")),
         ],
-        meshes("strip", ("alternating", 32, 4), ("irregular", 32, 4), ("irregular", 64, 6)),
+        meshes("strip", *((pattern, n, n // 8) for pattern in ("alternating", "irregular") for n in (16, 32, 64))),
     ),
     "roll-up": Benchmark(
         [Curve("-u", "end", "x", -1, roll_up("x")), Curve("w", "end", "z", 1, roll_up("z"))],
@@ -210,7 +212,7 @@ def report(name, mesh, curve, summary, seconds, out):
         f"{seconds:.0f} s",
         flush=True,
     )
-    return path
+    return path, last
 
 
 def report_limit(name, mesh, curve, limit, summary, seconds, out):
@@ -228,21 +230,52 @@ def report_limit(name, mesh, curve, limit, summary, seconds, out):
         f"{100 * (displacement / limit[1] - 1):+.2f} % | {seconds:.0f} s",
         flush=True,
     )
-    return path
+    return path, highest
+
+
+def report_order(name, mesh, label, values, reference):
+    """From the last three of the values on meshes whose spacings halve."""
+    coarse, middle, fine = values[-3:]
+    what = "first maximum" if label is None else label
+    if (coarse - middle) * (middle - fine) <= 0 or abs(middle - fine) >= abs(coarse - middle):
+        print(f"{name} | {mesh} | order of {what} | differences {middle - coarse:+.2e}, {fine - middle:+.2e}: none", flush=True)
+        return
+    order = math.log2((coarse - middle) / (middle - fine))
+    limit = fine + (fine - middle) / (2**order - 1)
+    print(
+        f"{name} | {mesh} | order of {what} | {order:.2f} | converges to {limit:.6g} | {reference:.5g} | "
+        f"{100 * (limit / reference - 1):+.2f} %",
+        flush=True,
+    )
+
+
+def report_orders(name, benchmark, found):
+    """`found`: values by (pattern, label) and divisions."""
+    for (pattern, label), by_divisions in found.items():
+        divisions = sorted(by_divisions)[-3:]
+        halved = len(divisions) == 3 and all(2 * a == b for a, b in zip(divisions, divisions[1:]))
+        if not halved:
+            continue
+        reference = benchmark.limit[0] if benchmark.limit else {c.label: c.published[-1][1] for c in benchmark.curves}[label]
+        report_order(name, pattern, None if benchmark.limit else label, [by_divisions[n] for n in divisions], reference)
 
 
 def compare(name, benchmark, out):
     figure, axis = plt.subplots(figsize=(7, 5))
+    found = {}
     for number, (mesh, settings) in enumerate(benchmark.meshes.items()):
         folder = out / name / mesh.replace(" ", "-")
         folder.parent.mkdir(parents=True, exist_ok=True)
         summary, seconds = run(name, {**benchmark.settings, **settings}, folder)
         for curve in benchmark.curves:
             if benchmark.limit:
-                path = report_limit(name, mesh, curve, benchmark.limit, summary, seconds, folder)
+                path, last = report_limit(name, mesh, curve, benchmark.limit, summary, seconds, folder)
             else:
-                path = report(name, mesh, curve, summary, seconds, folder)
+                path, last = report(name, mesh, curve, summary, seconds, folder)
+            pattern, divisions = mesh.split()[:2]
+            found.setdefault((pattern, curve.label), {})[int(divisions)] = last
             axis.plot(path[:, 1], path[:, 0], color=f"C{number}", label=f"{curve.label}, {mesh}")
+    report_orders(name, benchmark, found)
     if benchmark.limit:
         axis.plot(benchmark.limit[1], benchmark.limit[0], "o", color="k", fillstyle="none", label="first maximum, published")
     for curve in benchmark.curves:
