@@ -1,0 +1,115 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the two-dimensional flags on three grids, cells and time step together, and prints the observed order of amplitude
+and frequency of the tip.
+
+Usage: validation/convergence/compare.py [--out DIR] [CASE...]
+
+Each level has 1.5 times the cells of the one before, everywhere, and steps shorter by as much.  With values a, b, c from
+coarse to fine the order is log((a - b)/(b - c))/log(1.5), the value for h = 0 Richardson's c + (c - b)/(1.5^p - 1).
+Peak to peak is the mean over the periods of the window between the case's own start of the count and its end.
+
+Runs into DIR/<case>-<cells per length> (default validation/convergence/results) what is not there yet, prints a table, and
+writes DIR/convergence.png.
+"""
+import argparse
+import csv
+import subprocess
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+here = Path(__file__).resolve().parent
+root = here.parent.parent
+ratio = 1.5
+levels = (16, 24, 36)  # cells per length
+windows = {"flag-2d": (24.0, 42.0), "inverted-flag-2d": (12.0, 40.0)}
+
+
+def settings(cells):
+    """The same grid but for its spacing: 80 x 60 cells with 16 on the flag."""
+    line = "{{ from = {}, to = {}, cells = {}, refine = {{ from = {}, to = {}, spacing = {:.10g} }} }}"
+    return [
+        "grid.x=" + line.format(-4.0, 10.0, 5 * cells, -1.0, 2.0, 1.0 / cells),
+        "grid.y=" + line.format(-4.0, 4.0, 15 * cells // 4, -1.0, 1.0, 1.0 / cells),
+        f"shell.flag.mesh.divisions=[{cells}, 1]",
+        f"time.step={0.24 / cells:.10g}",
+        "output.plots=false",
+        "coupling.tolerance=1e-7",
+    ]
+
+
+def run(case, cells, out):
+    if (out / "summary.json").exists():
+        return
+    changes = settings(cells) + [f"time.end={windows[case][1]}"]
+    command = [root / "luff", "run", root / "cases" / case / "case.toml", "--out", out]
+    # A run that fails has its table up to there.
+    subprocess.run(command + [word for change in changes for word in ("--set", change)], check=False)
+
+
+def history(out):
+    with open(out / "probe-tip.csv") as file:
+        table = list(csv.reader(file))
+    data = np.array([[float(v) for v in row[:3]] for row in table[1:]])
+    return data[:, 0], data[:, 2]
+
+
+def rises(t, y):
+    """Instants where y rises through the middle of its range."""
+    y = y - 0.5 * (y.max() + y.min())
+    up = np.flatnonzero((y[:-1] < 0) & (y[1:] >= 0))
+    return t[up] - y[up] * (t[up + 1] - t[up]) / (y[up + 1] - y[up])
+
+
+def swing(t, y, window):
+    """Peak to peak, the mean over whole periods, and frequency."""
+    late = (t >= window[0]) & (t <= window[1])
+    t, y = t[late], y[late]
+    at = rises(t, y)
+    heights = [np.ptp(y[(t >= a) & (t <= b)]) for a, b in zip(at[:-1], at[1:])]
+    return np.mean(heights), (len(at) - 1) / (at[-1] - at[0]), len(heights)
+
+
+def order(values):
+    a, b, c = values
+    if (a - b) * (b - c) <= 0 or abs(b - c) >= 0.9 * abs(a - b):
+        return None, None
+    p = np.log((a - b) / (b - c)) / np.log(ratio)
+    return p, c + (c - b) / (ratio**p - 1)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("cases", nargs="*", metavar="CASE", default=list(windows))
+    parser.add_argument("--out", type=Path, default=here / "results")
+    arguments = parser.parse_args()
+    figure, axes = plt.subplots(len(arguments.cases), 1, figsize=(9, 4 * len(arguments.cases)), squeeze=False)
+    print("case | quantity | " + " | ".join(f"L/{n}" for n in levels) + " | order | h = 0 | finest off by")
+    for case, axis in zip(arguments.cases, axes[:, 0]):
+        found, ends = [], []
+        for cells in levels:
+            out = arguments.out / f"{case}-{cells}"
+            run(case, cells, out)
+            t, y = history(out)
+            found.append(swing(t, y, windows[case]))
+            ends.append(t[-1])
+            axis.plot(t, y, label=f"L/{cells}")
+        axis.set(title=case, xlabel="t U/L", ylabel="tip displacement y/L")
+        axis.legend()
+        for n, quantity in enumerate(("peak to peak / L", "frequency L/U")):
+            values = [level[n] for level in found]
+            p, limit = order(values)
+            tail = "none: changes do not fall | | " if p is None else f"{p:.2f} | {limit:.4f} | {100 * (values[2] / limit - 1):+.1f} %"
+            print(f"{case} | {quantity} | " + " | ".join(f"{v:.4f}" for v in values) + f" | {tail}")
+        print(f"{case} | periods | " + " | ".join(str(level[2]) for level in found) + " | | |")
+        print(f"{case} | ends at t | " + " | ".join(f"{t:.1f}" for t in ends) + " | | |")
+    figure.tight_layout()
+    figure.savefig(arguments.out / "convergence.png", dpi=130)
+
+
+main()
