@@ -25,6 +25,11 @@ constexpr double momentum_rounding = 1e-14;
 /// this part of it counts as a speed.
 constexpr double side_pressure_share = 0.05;
 
+/// The pressures of the stages of a step of Wray's act over [t^n, t^n + c dt], c = 2/3 and 1, so their means belong to
+/// t^n + dt/3 and t^n + dt/2, and the last one of the step before to t^n - dt/2.  From two of these the next:
+constexpr double second_stage_ahead = 5.0 / 6.0;  ///< of p^{n-1/2} - p^{n-3/2}, for p_2
+constexpr double third_stage_ahead = 1.0 / 5.0;   ///< of p_2 - p^{n-1/2}, for p_3
+
 Vec3 constant_part(const VectorFunction& f)
 {
   return f.constant ? f.value(Vec3::Zero(), 0.0) : Vec3::Zero();
@@ -142,11 +147,15 @@ void FlowSolver::begin_explicit(std::span<const Stage> stages)
   advance_stage(stages[1]);
   bind_to_walls(stages[1], SheetVelocity::Predicted);
   compute_fluxes({stages[1].end});
+  if (state_.steps > 1)
+    guess_pressure(state_.p_before.view(), second_stage_ahead);
   project_stage(stages[1].end * step_.dt, options_.stage_reduction);
   recover({stages[1].end});
 
   freeze_pressure_push(stages[2]);
   advance_stage(stages[2]);
+  if (state_.steps > 0)
+    guess_pressure(state_.p.view(), third_stage_ahead);
 }
 
 /// Alexander's stage 1, and the increment of stage 2 with the predicted velocity of the sheets.
@@ -483,6 +492,21 @@ void FlowSolver::predict_with_old_pressure(const StageTime& time)
   interpolate_increment();
   prescribe_fluxes(time);
   pressure_->subtract_gradient(views(U_), p_.view(), time.fraction * step_.dt);
+}
+
+/// p <- p + ahead (p - p_before), not where the sheet swept over the centre: where the next projection starts from,
+/// which changes nothing but how long it takes.
+void FlowSolver::guess_pressure(const View<const double>& before, double ahead)
+{
+  const auto timer = profile_.time(Phase::Pressure);
+  const auto p = p_.view();
+  std::vector<double> kept;
+  for (const Index3& c : links_.flipped())
+    kept.push_back(p(c));
+  operators::extrapolate(grid_.owned(), p, before, ahead, p);
+  for (std::size_t n = 0; n < kept.size(); ++n)
+    p(links_.flipped()[n]) = kept[n];
+  boundary_.fill_pressure(p);
 }
 
 poisson::Report FlowSolver::project_stage(double dt, double reduction)

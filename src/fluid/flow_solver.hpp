@@ -166,6 +166,7 @@ class FlowSolver {
   void prescribe_fluxes(const immersed::StageTime& time);
   void compute_fluxes(const immersed::StageTime& time);
   void predict_with_old_pressure(const immersed::StageTime& time);
+  void guess_pressure(const View<const double>& before, double ahead);
   poisson::Report project_stage(double dt, double reduction);
   [[noreturn]] void fail_as_no_number() const;
   void recover(const immersed::StageTime& time);
