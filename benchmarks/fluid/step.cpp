@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cost of a whole step of the flow on one core, and of its parts: uniform, stretched with a moving flag, curvilinear.
 //
-// Usage: benchmark_fluid_step [CELLS...]      cells along an edge, default 64
+// Usage: benchmark_fluid_step [uniform|stretched|curvilinear] [CELLS...]      all of them; cells along an edge, default
+// 64
 //        mpirun -n N benchmark_fluid_step [CELLS...]      the uniform flow only, N cubes of cells on top of each other
 //
 // CPU time, of the slowest rank per cell of a rank, so that a busy machine matters little. Every step leaves max |div
 // U| h/|U| at 5e-14 or below.
-#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <string>
+#include <vector>
 
 #include "support/curvilinear.hpp"
 #include "support/exact_flows.hpp"
@@ -109,15 +112,22 @@ int main(int argc, char** argv)
   int rank = 0;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  for (int a = 1; a < std::max(2, argc); ++a) {
-    const int n = argc > 1 ? std::atoi(argv[a]) : 64;
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  const bool chosen = !arguments.empty() && std::isalpha(arguments[0][0]) != 0;
+  const std::string flow = chosen ? arguments[0] : ranks > 1 ? "uniform" : "";
+  arguments.erase(arguments.begin(), arguments.begin() + (chosen ? 1 : 0));
+  if (arguments.empty())
+    arguments = {"64"};
+  for (const std::string& cells : arguments) {
+    const int n = std::atoi(cells.c_str());
     if (rank == 0)
       std::printf("%d^3 cells on each of %d ranks\n", n, ranks);
-    luff::test::measure_uniform(n, ranks);
-    if (ranks > 1)
-      continue;
-    luff::test::measure_stretched(n);
-    luff::test::measure_curvilinear(n);
+    if (flow.empty() || flow == "uniform")
+      luff::test::measure_uniform(n, ranks);
+    if (flow.empty() || flow == "stretched")
+      luff::test::measure_stretched(n);
+    if (flow.empty() || flow == "curvilinear")
+      luff::test::measure_curvilinear(n);
   }
   MPI_Finalize();
 }

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The 19-point pressure equation on a bent pipe with a rounded square section, one core.
+// The 19-point pressure equation on a bent pipe, one core.
 //
-//   benchmark_poisson_bent_pipe [NX NY NZ [ROUNDNESS]]      default: 601 101 101 0.45
+//   benchmark_poisson_bent_pipe [NX NY NZ [ROUNDNESS | section]]      default: 601 101 101 0.45
 //
+// The section is a square rounded so far, skewed at its corners, or that of the generators of pipes (NY = NZ).
 // Without a sheet and with a valve of three leaflets across the pipe: iterations and processor time per cell until the
 // net outflow fell by 1e-10, and the time to take in the sheet (the solver knew none before).
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <functional>
 
 #include <mpi.h>
 
+#include "grid/generators/disc_section.hpp"
 #include "poisson/flow.hpp"
 
 namespace {
@@ -17,9 +21,27 @@ namespace {
 using namespace luff;
 using namespace luff::benchmark;
 
-/// Nodes of a pipe of radius 1, bent by 69 degrees along its length; between its square (roundness 0) and its disc (1)
-/// the section becomes skewed at the corners.
-grid::NodeSource pipe(const Index3& cells, double roundness)
+/// Places in the section of a pipe, 0 on its axis and 1 on its wall, by node.
+using Section = std::function<Eigen::Vector2d(int, int)>;
+
+/// Between a square (roundness 0) and a disc (1).
+Section rounded_square(const Index3& cells, double roundness)
+{
+  return [=](int j, int k) -> Eigen::Vector2d {
+    const double a = 2.0 * j / cells[1] - 1.0;
+    const double c = 2.0 * k / cells[2] - 1.0;
+    return {a * (1.0 - roundness + roundness * std::sqrt(1.0 - 0.5 * c * c)),
+            c * (1.0 - roundness + roundness * std::sqrt(1.0 - 0.5 * a * a))};
+  };
+}
+
+Section generated(int cells)
+{
+  return [cells, nodes = grid::disc_section(cells)](int j, int k) { return nodes[j + (cells + 1) * k]; };
+}
+
+/// Nodes of a pipe of radius 1, bent by 69 degrees along its length.
+grid::NodeSource pipe(const Index3& cells, const Section& section)
 {
   return [=](const IndexBox& nodes) {
     std::vector<Vec3> x;
@@ -27,12 +49,9 @@ grid::NodeSource pipe(const Index3& cells, double roundness)
     const double angle = 1.2;
     const double radius = std::max(length / angle, 1.3);
     for_each_cell_in_order(nodes, [&](int i, int j, int k) {
-      const double a = 2.0 * j / cells[1] - 1.0;
-      const double c = 2.0 * k / cells[2] - 1.0;
-      const double u = a * (1.0 - roundness + roundness * std::sqrt(1.0 - 0.5 * c * c));
-      const double v = c * (1.0 - roundness + roundness * std::sqrt(1.0 - 0.5 * a * a));
+      const Eigen::Vector2d place = section(j, k);
       const double turn = length / radius * i / cells[0];
-      x.emplace_back((radius + u) * std::sin(turn), (radius + u) * std::cos(turn), v);
+      x.emplace_back((radius + place[0]) * std::sin(turn), (radius + place[0]) * std::cos(turn), place[1]);
     });
     return x;
   };
@@ -107,8 +126,9 @@ int main(int argc, char** argv)
     Index3 cells{601, 101, 101};
     for (int a = 0; a < 3 && argc > 3; ++a)
       cells[a] = std::atoi(argv[1 + a]);
-    const double roundness = argc > 4 ? std::atof(argv[4]) : 0.45;
-    const grid::Grid grid(MPI_COMM_SELF, cells, pipe(cells, roundness), {false, false, false});
+    const bool made = argc > 4 && std::strcmp(argv[4], "section") == 0;
+    const Section section = made ? generated(cells[1]) : rounded_square(cells, argc > 4 ? std::atof(argv[4]) : 0.45);
+    const grid::Grid grid(MPI_COMM_SELF, cells, pipe(cells, section), {false, false, false});
     const poisson::SideConditions walls{};
     const double start = thread_time();
     const auto solver = poisson::make_pressure_solver(grid, walls);
