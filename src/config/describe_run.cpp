@@ -74,10 +74,11 @@ void describe(Schema& s, StructureOptions& structure)
       {.doc = "Linear solver in Newton's method: a sparse factorisation, conjugate gradients, or these with incomplete "
               "Cholesky. The iterative ones only where shells neither buckle nor snap."});
   s.when(structure.analysis == Analysis::Dynamic, "`analysis = \"dynamic\"`", [&] {
-    s.key(
-        "scheme", structure.scheme,
-        {.doc = "Scheme in time: `newmark`, the average acceleration; `generalised-alpha`, which damps what the steps "
-                "do not resolve; `midpoint`, which keeps linear and angular momentum."});
+    s.key("scheme", structure.scheme,
+          {.doc =
+               "Scheme in time: `newmark`, the average acceleration; `generalised-alpha`, which damps what the steps "
+               "do not resolve; `midpoint`, which keeps linear and angular momentum; `auto`, `generalised-alpha` where "
+               "there is a flow, else `newmark`."});
     s.when(structure.scheme == StructureScheme::Newmark, "`scheme = \"newmark\"`", [&] {
       s.key(
           "numerical_damping", structure.numerical_damping,
@@ -174,7 +175,8 @@ void describe(Schema& s, OutputOptions& output)
                   "Absent: only when a run is stopped or fails. Motion in time only."});
   s.key("audit", output.audit,
         {.doc = "Steps between audits of the forces of the flow: their sum over a surface against the momentum of the "
-                "fluid around it (`audit.csv`, `force_mismatch` in `steps.csv`, `audit` in the summary), and of what changes "
+                "fluid around it (`audit.csv`, `force_mismatch` in `steps.csv`, `audit` in the summary), and of what "
+                "changes "
                 "the flow's energy. 0: none.",
          .range = not_negative});
   s.key("plots", output.plots, {.doc = "Make the pictures of `luff plot` when the run ends."});

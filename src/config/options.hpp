@@ -338,7 +338,7 @@ struct BodyOptions {
 enum class Analysis { Dynamic, Static, ArcLength, DisplacementControl, Modes };
 enum class StructureStabilisation { None, Damping };
 enum class StructureSolver { Direct, Cg, CgIc };
-enum class StructureScheme { Newmark, GeneralisedAlpha, Midpoint };
+enum class StructureScheme { Auto, Newmark, GeneralisedAlpha, Midpoint };
 
 /// The displacement prescribed in displacement control: the mean of one component over vertices of the only shell.
 struct ControlOptions {
@@ -360,7 +360,7 @@ struct StructureOptions {
   int modes = 10;        ///< how many of the lowest
   bool preload = false;  ///< modes about the equilibrium under the loads
   StructureSolver solver = StructureSolver::Direct;
-  StructureScheme scheme = StructureScheme::Newmark;
+  StructureScheme scheme = StructureScheme::Auto;
   double numerical_damping = 0.0;  ///< of Newmark's scheme
   double rho_inf = 0.8;            ///< of the generalised-alpha scheme
   double fold_limit = 75.0;        ///< degrees

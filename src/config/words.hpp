@@ -142,7 +142,8 @@ inline Words<StructureSolver> words(StructureSolver)
 
 inline Words<StructureScheme> words(StructureScheme)
 {
-  return {{{StructureScheme::Newmark, "newmark"},
+  return {{{StructureScheme::Auto, "auto"},
+           {StructureScheme::Newmark, "newmark"},
            {StructureScheme::GeneralisedAlpha, "generalised-alpha"},
            {StructureScheme::Midpoint, "midpoint"}}};
 }

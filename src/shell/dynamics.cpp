@@ -56,7 +56,7 @@ void Dynamics::start(const Eigen::VectorXd& v0)
 
 Checkpoint Dynamics::checkpoint() const
 {
-  return {state_, ledger_, fluid_forces_, tangent_.valid ? linearisation_ : Linearisation{}, step_};
+  return {state_, ledger_, fluid_forces_, tangent_.valid ? linearisation_ : Linearisation{}, step_, borrowed_mass_};
 }
 
 void Dynamics::restore(const Checkpoint& checkpoint)
@@ -67,6 +67,7 @@ void Dynamics::restore(const Checkpoint& checkpoint)
   fluid_forces_ = checkpoint.fluid_forces;
   linearisation_ = checkpoint.linearisation;
   step_ = checkpoint.step;
+  borrowed_mass_ = checkpoint.borrowed_mass;
   slow_ = false;
   prescribed_forces_ = loads_.at(state_.t).force(state_.x);
   tangent_.valid = linearisation_.x.size() > 0;
@@ -82,6 +83,13 @@ void Dynamics::restore(const Checkpoint& checkpoint)
   support_forces_ = support_forces();
   if (contact_)
     contact_->restore(state_.x, state_.t);
+}
+
+void Dynamics::borrow_mass(double ratio)
+{
+  ensure(ratio >= 0, "a borrowed mass is not negative");
+  borrowed_mass_ = ratio;
+  tangent_.valid = false;
 }
 
 /// M a = f_ext - f_int - D v on the free displacements, with the held ones given.
@@ -151,7 +159,7 @@ Kinematics Dynamics::kinematics(const Eigen::VectorXd& positions, double dt, con
   return k;
 }
 
-/// (1 - alpha_f) (K - d f_ext/dx) + (1 - alpha_m)/(beta dt^2) M + (1 - alpha_f) gamma/(beta dt) D
+/// (1 - alpha_f) (K - d f_ext/dx) + (1 + borrowed) (1 - alpha_m)/(beta dt^2) M + (1 - alpha_f) gamma/(beta dt) D
 void Dynamics::assemble_tangent(const Eigen::VectorXd& x, const Images& images, const LoadsAtTime& loads, double dt,
                                 BlockMatrix& K) const
 {
@@ -160,7 +168,7 @@ void Dynamics::assemble_tangent(const Eigen::VectorXd& x, const Images& images, 
   loads.subtract_stiffness(x, 1, K);
   if (scheme.position_slope() != 1)
     K.scale(scheme.position_slope());
-  shell_.add_mass(scheme.acceleration_slope(dt), K);
+  shell_.add_mass((1 + borrowed_mass_) * scheme.acceleration_slope(dt), K);
   if (shell_.is_damped())
     K.add(scheme.velocity_slope(dt), damping_);
 }
@@ -180,8 +188,17 @@ Dynamics::StepTerms Dynamics::step_terms(double t_new, double dt, const Eigen::V
           .images = shell_.images_at(configuration(placed), t),
           .fluid = scheme.balanced(fluid_forces_, fluid_forces),
           .held = held_rates(dt),
+          .guess = placed,
           .t = t,
           .dt = dt};
+}
+
+/// Of the borrowed mass, for the way from the guess.
+Eigen::VectorXd Dynamics::borrowed_inertia(const StepTerms& terms, const Eigen::VectorXd& x_new) const
+{
+  if (borrowed_mass_ == 0)
+    return Eigen::VectorXd::Zero(x_new.size());
+  return borrowed_mass_ * options_.scheme.acceleration_slope(terms.dt) * shell_.mass_times(x_new - terms.guess);
 }
 
 /// Contact adds its force at the end of the step, whatever the scheme; for the rest to have a potential of the new
@@ -198,7 +215,8 @@ SmoothBalance Dynamics::smooth_balance(const StepTerms& terms) const
   };
   balance.other_forces = [&](const Eigen::VectorXd& x_new) -> Eigen::VectorXd {
     const Kinematics k = scheme.balanced(state_, kinematics(x_new, terms.dt, terms.held));
-    return terms.loads.force(configuration(x_new)) + terms.fluid - shell_.mass_times(k.a) - damping_force(k.v);
+    return terms.loads.force(configuration(x_new)) + terms.fluid - shell_.mass_times(k.a) - damping_force(k.v) -
+           borrowed_inertia(terms, x_new);
   };
   balance.tangent = [&](const Eigen::VectorXd& x_new, BlockMatrix& K) {
     assemble_tangent(configuration(x_new), terms.images, terms.loads, terms.dt, K);
@@ -234,7 +252,7 @@ Dynamics::Trial Dynamics::solve(double t_new, double dt, const Eigen::VectorXd& 
         const Kinematics k = kinematics(x_new, dt, terms.held);
         const Eigen::VectorXd x = configuration(x_new);
         return -out_of_balance(x, terms.images, options_.scheme.balanced(state_, k),
-                               terms.loads.force(x) + terms.fluid);
+                               terms.loads.force(x) + terms.fluid - borrowed_inertia(terms, x_new));
       },
       .tangent =
           [&](const Eigen::VectorXd& x_new, BlockMatrix& K) {

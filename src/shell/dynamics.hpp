@@ -55,6 +55,7 @@ struct Checkpoint {
   Eigen::VectorXd fluid_forces;
   Linearisation linearisation;
   int step = 0;
+  double borrowed_mass = 0;
 };
 
 /// Solves M a + D v + f_int(x) = f_ext(x, t) + f_fluid step by step, with Rayleigh damping D = f_m M + f_k K_mat(x_n)
@@ -87,6 +88,15 @@ class Dynamics {
   /// Go on from a checkpoint of the same shell, loads and options.
   void restore(const Checkpoint& checkpoint);
 
+  /// From now on solve() resists being moved away from its guess as if the shell were `ratio` times its mass heavier,
+  ///
+  ///   M a + ... + ratio (1 - alpha_m)/(beta dt^2) M (x - x_guess) = f_fluid:
+  ///
+  /// nothing where a coupling iteration has come to rest, x = x_guess, and before that a bound on how far the forces of
+  /// a fluid that is much heavier throw the shell.
+  void borrow_mass(double ratio);
+  const TimeScheme& scheme() const { return options_.scheme; }
+
   /// Second-order extrapolation x + dt v + dt^2/2 a, with what supports hold in its place.
   Eigen::VectorXd predicted_positions(double dt) const;
   /// Rates at t + dt that the scheme gives to new positions, those of the supports where they hold. For what solve()
@@ -109,6 +119,7 @@ class Dynamics {
     Images images;
     Eigen::VectorXd fluid;
     Held::HeldRates held;
+    Eigen::VectorXd guess;
     double t;  ///< of the balance
     double dt;
   };
@@ -128,6 +139,7 @@ class Dynamics {
   Kinematics kinematics(const Eigen::VectorXd& positions, double dt, const Held::HeldRates& held) const;
   void assemble_tangent(const Eigen::VectorXd& x, const Images& images, const LoadsAtTime& loads, double dt,
                         BlockMatrix& K) const;
+  Eigen::VectorXd borrowed_inertia(const StepTerms& terms, const Eigen::VectorXd& x_new) const;
   Eigen::VectorXd out_of_balance(const Eigen::VectorXd& x, const Images& images, const Kinematics& k,
                                  const Eigen::VectorXd& forces) const;
   Eigen::VectorXd support_forces(const Eigen::VectorXd& x, double t, const Kinematics& k,
@@ -154,6 +166,7 @@ class Dynamics {
   Linearisation linearisation_;
   Solution solution_;
   std::unique_ptr<ContactStep> contact_;  ///< null: none
+  double borrowed_mass_ = 0;              ///< in parts of the shell's own
   bool slow_ = false;                     ///< a solve since the last accept took many iterations
   int step_ = 0;
 };

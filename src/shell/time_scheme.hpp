@@ -53,6 +53,9 @@ class TimeScheme {
   double position_slope() const { return 1 - alpha_f_; }
   double velocity_slope(double dt) const { return (1 - alpha_f_) * gamma_ / (beta_ * dt); }
   double acceleration_slope(double dt) const { return (1 - alpha_m_) / (beta_ * dt * dt); }
+  double alpha_m() const { return alpha_m_; }
+  double alpha_f() const { return alpha_f_; }
+  double gamma() const { return gamma_; }
   /// Balance is struck in the middle of the step, where the work of its forces is exactly theirs times the step.
   bool works_at_midpoint() const { return alpha_f_ == 0.5; }
 

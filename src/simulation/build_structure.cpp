@@ -163,13 +163,19 @@ LoadedShell build_shell(const std::vector<config::ShellOptions>& options)
 
 namespace {
 
-shell::TimeScheme scheme_of(const config::StructureOptions& structure)
+/// Without numerical damping the acceleration of a shell that is much lighter than the fluid keeps a sawtooth from step
+/// to step (docs/numerics/coupling.md).
+shell::TimeScheme scheme_of(const config::StructureOptions& structure, bool in_flow)
 {
   switch (structure.scheme) {
     case config::StructureScheme::GeneralisedAlpha:
       return shell::TimeScheme::generalised_alpha(structure.rho_inf);
     case config::StructureScheme::Midpoint:
       return shell::TimeScheme::midpoint();
+    case config::StructureScheme::Auto:
+      if (in_flow)
+        return shell::TimeScheme::generalised_alpha(structure.rho_inf);
+      break;
     case config::StructureScheme::Newmark:
       break;
   }
@@ -211,7 +217,7 @@ Shells build_shells(const config::Case& options, const std::vector<RigidSheet>& 
   shells.shell = std::move(built.shell);
   shells.marks = std::move(built.marks);
   shell::DynamicsOptions dynamics;
-  dynamics.scheme = scheme_of(options.structure);
+  dynamics.scheme = scheme_of(options.structure, options.fluid.has_value());
   // An analysis without time takes no step; any length does for the rates that it doesn't use.
   dynamics.first_step = options.structure.analysis == config::Analysis::Dynamic ? options.time.step : 1.0;
   dynamics.fold_limit = options.structure.fold_limit;

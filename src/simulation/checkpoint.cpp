@@ -56,6 +56,7 @@ void transfer_shells(File& file, Checkpoint& shells)
   file.value("shells/a", shells.state.a);
   file.value("shells/t", shells.state.t);
   file.value("shells/step", shells.step);
+  file.value("shells/borrowed_mass", shells.borrowed_mass);
   file.value("shells/fluid_forces", shells.fluid_forces);
   file.value("shells/kinetic", shells.ledger.kinetic);
   file.value("shells/elastic", shells.ledger.elastic);

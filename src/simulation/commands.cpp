@@ -70,12 +70,31 @@ std::function<bool()> anywhere(MPI_Comm comm, const std::function<bool()>& here)
   };
 }
 
+/// Finds how heavy the fluid is that moves with shells before the first step, and lets them borrow mass where they need
+/// it.
+void prepare_coupling(Simulation& simulation, spdlog::logger& log)
+{
+  Structure& structure = simulation.structure();
+  const Scheme scheme = simulation.policy().scheme;
+  if (simulation.surroundings().flow() == nullptr || !structure.shells().dynamics || scheme == Scheme::Loose)
+    return;
+  try {
+    const double ratio = added_mass_ratio(simulation);
+    structure.borrow_mass(borrowed_mass(ratio));
+    log.info("{}", describe_coupling(ratio, scheme, structure.shells().dynamics->scheme()));
+  } catch (const NonConvergence& trouble) {  // steps can be halved, this cannot
+    log.warn("how heavy the fluid is that moves with the shells is not known: {}", trouble.what());
+  }
+}
+
 void march(const output::RunFolder& folder, const std::shared_ptr<spdlog::logger>& log, const config::Case& options,
            Simulation& simulation, const std::function<bool()>& interrupted,
            const std::optional<Resumption>& resumption)
 {
   Recorder recorder(folder, log, options, simulation, interrupted, resumption ? &resumption->record : nullptr);
   try {
+    if (!resumption)
+      prepare_coupling(simulation, *log);
     simulation.run([&](const StepRecord& record) { return recorder.record(record); });
   } catch (const InputError& error) {  // of the boundary at a later time, for one
     recorder.finish(Ending::Failed, error.what());
@@ -226,8 +245,11 @@ void check_case(MPI_Comm comm, const std::filesystem::path& file, const config::
     (void)build_still(options);
   std::vector<std::string> groups = describe_groups(options, *structure, grid.get());
   if (grid && !options.shells.empty())
-    groups.push_back(
-        describe_coupling(added_mass_ratio(*build_simulation(comm, options)), build_policy(options.coupling).scheme));
+    groups.push_back([&] {
+      const std::unique_ptr<Simulation> simulation = build_simulation(comm, options);
+      return describe_coupling(added_mass_ratio(*simulation), simulation->policy().scheme,
+                               simulation->structure().shells().dynamics->scheme());
+    }());
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   if (rank != 0)

@@ -53,6 +53,7 @@ class Simulation {
   /// Throws RunError when a step cannot be made; the accepted state is still the last good one.
   void run(const Observer& observe);
 
+  [[nodiscard]] const CouplingPolicy& policy() const { return policy_; }
   [[nodiscard]] const Clock& clock() const { return clock_; }
   [[nodiscard]] Clock& clock() { return clock_; }
   [[nodiscard]] coupling::Acceleration& acceleration() { return *acceleration_; }

@@ -79,6 +79,8 @@ class Structure {
   /// from the accepted state; Newton starts from d.
   [[nodiscard]] Eigen::VectorXd solve(const TimeStep& step, const immersed::SheetLoads& loads,
                                       const Eigen::VectorXd& d);
+  /// See shell::Dynamics::borrow_mass.
+  void borrow_mass(double ratio) { shells_.dynamics->borrow_mass(ratio); }
   /// Commits d.
   void accept(const TimeStep& step, const Eigen::VectorXd& d);
 

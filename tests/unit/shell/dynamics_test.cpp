@@ -98,6 +98,26 @@ TEST(Dynamics, RepeatedSolveGivesTheSamePositionsAndKeepsTheTangent)
   EXPECT_LE(other.report.iterations, 5);
 }
 
+TEST(Dynamics, BorrowedMassHoldsTheShellBackAndDoesNotChangeWhereItComesToRest)
+{
+  const Flag flag;
+  for (const TimeScheme& scheme : {TimeScheme::newmark(), TimeScheme::generalised_alpha(0.8)}) {
+    Dynamics own(flag.shell, flag.loads(), {.scheme = scheme});
+    Dynamics borrowing(flag.shell, flag.loads(), {.scheme = scheme});
+    borrowing.borrow_mass(3.0);
+    const Eigen::VectorXd guess = own.predicted_positions(dt);
+    const Eigen::VectorXd force = flag.fluid(1.0);
+    const Eigen::VectorXd answer = own.solve(dt, dt, force, guess).positions;
+    Eigen::VectorXd x = borrowing.solve(dt, dt, force, guess).positions;
+    const double whole_way = (answer - guess).norm();
+    EXPECT_LT((x - guess).norm(), 0.6 * whole_way);
+    EXPECT_GT((x - guess).norm(), 0.2 * whole_way);
+    for (int iteration = 0; iteration < 60; ++iteration)
+      x = borrowing.solve(dt, dt, force, x).positions;
+    EXPECT_LE((x - answer).norm(), 1e-6 * whole_way);
+  }
+}
+
 TEST(Dynamics, AcceptedKinematicsAreNewmarks)
 {
   const Flag flag;
