@@ -96,6 +96,7 @@ void FlowSolver::start(const VectorFunction& velocity, double t_0)
   pressure_->set_blocked({});
   state_.u = u_;
   speed_ = largest_speed();
+  from_rest_ = speed_ == 0.0;
   p_.fill(0.0);
   project_stage(1.0, 0.0);
   p_.fill(0.0);  // the potential that corrected the initial fluxes is no pressure
@@ -115,8 +116,10 @@ void FlowSolver::begin_step(const TimeStep& step, const immersed::SheetMotion& p
   for (const Vec3& v : predicted.velocity)
     sheet_speed = std::max(sheet_speed, v.norm());
   // The pressure has to take up what the forces of a step set in motion, in a fluid at rest too.
-  speed_ = std::max({largest_speed(), inflow, sheet_speed, step.dt * constant_part(options_.acceleration).norm(),
+  const double own_speed = std::max(largest_speed(), inflow);
+  speed_ = std::max({own_speed, sheet_speed, step.dt * constant_part(options_.acceleration).norm(),
                      step.dt * boundary_.largest_pressure() / grid_.smallest_width() * side_pressure_share});
+  from_rest_ = own_speed == 0.0;
   u_ = state_.u;
   U_ = state_.U;
   repair_pressure();
@@ -512,8 +515,8 @@ void FlowSolver::guess_pressure(const View<const double>& before, double ahead)
 poisson::Report FlowSolver::project_stage(double dt, double reduction)
 {
   const auto timer = profile_.time(Phase::Pressure);
-  if (speed_ == 0.0)  // at rest until now: whatever the forces of this stage have set in motion
-    speed_ = largest_flux_velocity();
+  if (from_rest_)  // whatever this stage has set in motion; what was there before may be round-off of it
+    speed_ = std::max(speed_, largest_flux_velocity());
   const poisson::Report report = pressure_->project(views(U_), p_.view(), dt,
                                                     {.relative = reduction,
                                                      .divergence = options_.divergence,

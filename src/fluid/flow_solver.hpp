@@ -189,7 +189,8 @@ class FlowSolver {
   TimeStep step_;
   mutable Profile profile_;
   std::size_t sheet_vertices_ = 0;
-  double speed_ = 0.0;  ///< scale of the velocity in this step [L/T]
+  double speed_ = 0.0;     ///< scale of the velocity in this step [L/T]
+  bool from_rest_ = true;  ///< nothing moved when this step began: the scale grows with its stages
 
   FlowState state_;
   Field3<double> u_before_;   ///< velocity at the start of the accepted step

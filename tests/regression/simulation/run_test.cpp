@@ -308,6 +308,42 @@ TEST(ACoupledRun, CarriesAShellOfHardlyAnyMassWithoutTuning)
   EXPECT_NEAR(probe.column("displacement_x [length]").back(), 0.5 * 0.2 * 0.2 / 3.001, 0.01 * 0.5 * 0.2 * 0.2 / 3.0);
 }
 
+// What the first stage of the first step brings is round-off of what the last one does.
+TEST(ACoupledRun, BeginsInAFluidThatIsSetInMotionSlowly)
+{
+  const WorkFolder folder;
+  run_well(folder, R"toml(title = "Plate in a channel that starts slowly"
+[time]
+end = 0.04
+step = 0.02
+[fluid]
+density = 1000.0
+viscosity = 1.0
+[grid]
+x = { from = 0.0, to = 1.5, cells = 24 }
+y = { from = 0.0, to = 0.4, cells = 8 }
+z = { from = 0.0, to = 0.05, cells = 1 }
+[boundary]
+x_min = { type = "velocity", value = ["0.3*0.5*(1 - cos(pi*t))", 0, 0] }
+x_max = { type = "outflow" }
+y_min = { type = "slip" }
+y_max = { type = "slip" }
+z_min = { type = "symmetry" }
+z_max = { type = "symmetry" }
+[[shell]]
+name = "plate"
+mesh = { shape = "rectangle", origin = [0.5, 0.003, 0], a = [0, 0.197, 0], b = [0, 0, 0.05], divisions = [4, 1] }
+thickness = 0.1
+density = 1000.0
+material = { model = "saint-venant-kirchhoff", young = 1e4, poisson = 0.4 }
+[[shell.support]]
+where = { edge = [[0.5, 0.003, 0], [0.5, 0.003, 0.05]] }
+type = "clamped"
+)toml");
+  const auto steps = read_table(folder.path() / "out/steps.csv");
+  EXPECT_EQ(steps.rows.size(), 2U);  // none was halved
+}
+
 // Pressed together with half a unit of traction from either side, in one layer of cells at the end.
 TEST(ACoupledRun, KeepsTwoFlagsThatMeetApart)
 {
