@@ -5,9 +5,9 @@
 Usage: validation/shell-benchmarks/compare.py [NAME...] [--out DIR] [--list]
 
 Each benchmark runs on the meshes listed here. A table is printed: where the run ended, the largest difference over the
-published points as a part of the largest published value, and the last published point with what was computed there. Where three
-meshes of a pattern halve the spacings, the order with which that value converges and what it converges to by Richardson follow:
-p = log2 (u1 - u2)/(u2 - u3), u = u3 + (u3 - u2)/(2^p - 1). Writes
+published points as a part of the largest published value, and the last published point with what was computed there. From the
+three finest meshes of a pattern follow the order p with which that value converges, by itself and not against the published one,
+and what it converges to: u_n = u + c h_n^p for n = 1, 2, 3. Writes
 DIR/<name>.png (default validation/shell-benchmarks/results). A finished run in DIR is used again.
 """
 import argparse
@@ -106,7 +106,7 @@ BENCHMARKS = {
     ),
     "hemisphere": Benchmark(
         [Curve("out", "out", "x", 1, single("hemisphere")), Curve("in", "in", "y", -1, single("hemisphere"))],
-        refined("hemisphere", ("diagonal", "irregular"), (16, 32, 64)),
+        refined("hemisphere", ("diagonal", "irregular"), (16, 32, 64, 128)),
     ),
     "cantilever": Benchmark(
         [
@@ -117,7 +117,7 @@ BENCHMARKS = {
     ),
     "roll-up": Benchmark(
         [Curve("-u", "end", "x", -1, roll_up("x")), Curve("w", "end", "z", 1, roll_up("z"))],
-        meshes("strip", ("alternating", 32, 2), ("alternating", 64, 3), ("irregular", 32, 2), ("irregular", 64, 3)),
+        meshes("strip", *((pattern, n, n // 16) for pattern in ("alternating", "irregular") for n in (32, 64, 128))),
     ),
     "hemisphere-large": Benchmark(
         [
@@ -233,18 +233,32 @@ def report_limit(name, mesh, curve, limit, summary, seconds, out):
     return path, highest
 
 
-def report_order(name, mesh, label, values, reference):
-    """From the last three of the values on meshes whose spacings halve."""
-    coarse, middle, fine = values[-3:]
+def observed_order(values, divisions):
+    """(p, u) of u_n = u + c h_n^p, h_n = 1/divisions, by bisection of (u1 - u2)/(u2 - u3) = (h1^p - h2^p)/(h2^p - h3^p), which
+    grows with p; none where differences change sign or fall more slowly than for any p."""
+    u, h = np.array(values), divisions[-1] / np.array(divisions, float)
+    ratio = lambda p: (h[0] ** p - h[1] ** p) / (h[1] ** p - h[2] ** p)
+    low, high = 1e-3, 16.0
+    if u[1] == u[2] or not ratio(low) < (u[0] - u[1]) / (u[1] - u[2]) < ratio(high):
+        return None
+    while high - low > 1e-6:
+        middle = (low + high) / 2
+        low, high = (middle, high) if ratio(middle) < (u[0] - u[1]) / (u[1] - u[2]) else (low, middle)
+    return low, u[2] - (u[1] - u[2]) / (h[1] ** low - 1)
+
+
+def report_order(name, mesh, label, values, divisions, reference, scale):
+    """From values on three meshes, the finest last."""
     what = "first maximum" if label is None else label
-    if (coarse - middle) * (middle - fine) <= 0 or abs(middle - fine) >= abs(coarse - middle):
+    found = observed_order(values, divisions)
+    if found is None:
+        coarse, middle, fine = values
         print(f"{name} | {mesh} | order of {what} | differences {middle - coarse:+.2e}, {fine - middle:+.2e}: none", flush=True)
         return
-    order = math.log2((coarse - middle) / (middle - fine))
-    limit = fine + (fine - middle) / (2**order - 1)
+    order, limit = found
     print(
         f"{name} | {mesh} | order of {what} | {order:.2f} | converges to {limit:.6g} | {reference:.5g} | "
-        f"{100 * (limit / reference - 1):+.2f} %",
+        f"{100 * (limit - reference) / scale:+.2f} %; finest mesh less that {100 * (values[-1] - limit) / scale:+.3f} %",
         flush=True,
     )
 
@@ -253,11 +267,13 @@ def report_orders(name, benchmark, found):
     """`found`: values by (pattern, label) and divisions."""
     for (pattern, label), by_divisions in found.items():
         divisions = sorted(by_divisions)[-3:]
-        halved = len(divisions) == 3 and all(2 * a == b for a, b in zip(divisions, divisions[1:]))
-        if not halved:
+        if len(divisions) < 3:
             continue
-        reference = benchmark.limit[0] if benchmark.limit else {c.label: c.published[-1][1] for c in benchmark.curves}[label]
-        report_order(name, pattern, None if benchmark.limit else label, [by_divisions[n] for n in divisions], reference)
+        curve = next(c for c in benchmark.curves if c.label == label)
+        reference = benchmark.limit[0] if benchmark.limit else curve.published[-1][1]
+        scale = reference if benchmark.limit else max(abs(value) for _, value in curve.published)
+        values = [by_divisions[n] for n in divisions]
+        report_order(name, pattern, None if benchmark.limit else label, values, divisions, reference, scale)
 
 
 def compare(name, benchmark, out):
