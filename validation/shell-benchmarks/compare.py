@@ -106,7 +106,7 @@ BENCHMARKS = {
     ),
     "hemisphere": Benchmark(
         [Curve("out", "out", "x", 1, single("hemisphere")), Curve("in", "in", "y", -1, single("hemisphere"))],
-        refined("hemisphere", ("diagonal", "irregular"), (16, 32, 64, 128)),
+        refined("hemisphere", ("diagonal", "irregular"), (16, 32, 64, 128)) | meshes("hemisphere", ("diagonal", 256, 256)),
     ),
     "cantilever": Benchmark(
         [
@@ -132,7 +132,7 @@ BENCHMARKS = {
             Curve("-U_B", "side", "y", -1, table("sze2004_pullout_open_cylinder.csv", "minus_U_B")),
             Curve("-U_C", "end", "y", -1, table("sze2004_pullout_open_cylinder.csv", "minus_U_C")),
         ],
-        meshes("cylinder", *((pattern, n, 2 * n // 3) for pattern in ("alternating", "irregular") for n in (72, 108))),
+        meshes("cylinder", *((pattern, n, 2 * n // 3) for pattern in ("alternating", "irregular") for n in (48, 72, 108))),
     ),
     "pinched-cylinder-diaphragms": Benchmark(
         [
