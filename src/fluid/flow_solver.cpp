@@ -589,7 +589,8 @@ void FlowSolver::repair_pressure()
   for (const Index3& c : links_.flipped())
     p(c) = unknown;
   halo_.exchange({p});
-  std::vector<double> repaired;
+  boundary_.fill_pressure(p);  // a mirrored cell is as unknown as the cell itself
+  repaired_pressure_.clear();
   for (const Index3& c : links_.flipped()) {
     double sum = 0.0;
     int known = 0;
@@ -601,24 +602,29 @@ void FlowSolver::repair_pressure()
       sum += p(beside);
       ++known;
     }
-    repaired.push_back(known > 0 ? sum / known : state_.p.view()(c));
+    repaired_pressure_.push_back(known > 0 ? sum / known : unknown);
   }
-  for (std::size_t n = 0; n < repaired.size(); ++n)
-    p(links_.flipped()[n]) = repaired[n];
+  for (std::size_t n = 0; n < repaired_pressure_.size(); ++n) {
+    const Index3& c = links_.flipped()[n];
+    p(c) = std::isnan(repaired_pressure_[n]) ? state_.p.view()(c) : repaired_pressure_[n];
+  }
   halo_.exchange({p});
   boundary_.fill_pressure(p);
 }
 
-/// u with its halo, and p at t^{n+1} from the half levels, 3/2 p^{n+1/2} - 1/2 p^{n-1/2}; not where the sheet swept
-/// over the centre, nor before two half levels are known.
+/// u with its halo, and p at t^{n+1} from the half levels, 3/2 p^{n+1/2} - 1/2 p^{n-1/2}, where the sheet swept over
+/// the centre with the repaired p^{n-1/2}; p^{n+1/2} where only that is known.
 void FlowSolver::update_load_fields()
 {
   const auto timer = profile_.time(Phase::Loads);
   const double w = state_.steps > 1 ? 0.5 : 0.0;
   const auto p_load = p_load_.view();
   operators::extrapolate(grid_.owned(), p_.view(), state_.p.view(), w, p_load);
-  for (const Index3& c : links_.flipped())
-    p_load(c) = p_.view()(c);
+  for (std::size_t n = 0; n < repaired_pressure_.size(); ++n) {
+    const Index3& c = links_.flipped()[n];
+    const double before = repaired_pressure_[n];
+    p_load(c) = p_.view()(c) + (std::isnan(before) ? 0.0 : w * (p_.view()(c) - before));
+  }
   if (cross_terms_) {
     fill_velocity_halo(views(u_));
     cross_terms_->update(links_, views(std::as_const(u_)), {1.0, SheetVelocity::Current});

@@ -193,13 +193,14 @@ class FlowSolver {
   bool from_rest_ = true;  ///< nothing moved when this step began: the scale grows with its stages
 
   FlowState state_;
-  Field3<double> u_before_;   ///< velocity at the start of the accepted step
-  Field3<double> u_;          ///< velocity of the latest stage
-  Field3<double> U_;          ///< fluxes of the latest stage
-  Field<double> p_;           ///< pressure of the latest stage
-  Field<double> p_load_;      ///< pressure extrapolated to t^{n+1}
-  Field3<double> increment_;  ///< du = u^ - u^n, u^ the pressure-free velocity
-  Field3<double> rate_;       ///< N of the stage before
+  Field3<double> u_before_;                ///< velocity at the start of the accepted step
+  Field3<double> u_;                       ///< velocity of the latest stage
+  Field3<double> U_;                       ///< fluxes of the latest stage
+  Field<double> p_;                        ///< pressure of the latest stage
+  Field<double> p_load_;                   ///< pressure extrapolated to t^{n+1}
+  std::vector<double> repaired_pressure_;  ///< p^{n-1/2} of links_.flipped() on their new side; no number: not known
+  Field3<double> increment_;               ///< du = u^ - u^n, u^ the pressure-free velocity
+  Field3<double> rate_;                    ///< N of the stage before
 
   std::unique_ptr<NewtonKrylov> momentum_;  ///< of the implicit scheme; so are the next ones
   std::optional<operators::LineFactors> lines_;

@@ -26,13 +26,14 @@ struct Plate {
   }
 };
 
-/// A slab between symmetry planes; a stream along x from x_min to x_max, or fluid at rest where it is zero.
+/// A slab one cell deep; a stream along x from x_min to x_max, or fluid at rest where it is zero.
 struct Slab {
   grid::AxisSpec x;
   grid::AxisSpec y;
   double depth = 0.1;
   double stream = 1.0;
   double viscosity = 0.01;
+  fluid::SideKind z_sides = fluid::SideKind::Symmetry;
 };
 
 inline std::unique_ptr<TestFlow> make_flow(const Slab& slab, MPI_Comm comm, const fluid::FlowOptions& options)
@@ -41,10 +42,10 @@ inline std::unique_ptr<TestFlow> make_flow(const Slab& slab, MPI_Comm comm, cons
   using fluid::SideKind;
   const auto stream = fluid::VectorFunction::uniform({slab.stream, 0.0, 0.0});
   const SideBoundary slip{.kind = SideKind::Slip};
-  const SideBoundary symmetry{.kind = SideKind::Symmetry};
+  const SideBoundary z_side{.kind = slab.z_sides};
   const fluid::Boundaries sides{{{SideBoundary{SideKind::Velocity, stream}, SideBoundary{.kind = SideKind::Outflow}},
                                  {slip, slip},
-                                 {symmetry, symmetry}}};
+                                 {z_side, z_side}}};
   auto flow = std::make_unique<TestFlow>(std::array{grid::face_coordinates(slab.x, "x"),
                                                     grid::face_coordinates(slab.y, "y"), std::vector{0.0, slab.depth}},
                                          sides, options, comm);

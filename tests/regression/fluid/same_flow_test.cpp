@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The same flow on any number of threads and in any units.
+// The same flow on any number of threads, in any units, and however a slab is closed.
 #include <iostream>
 
 #include <gtest/gtest.h>
 
+#include "support/plates.hpp"
 #include "support/stretched_flow.hpp"
 
 namespace luff::test {
@@ -39,6 +40,28 @@ TEST(Flow, HasTheSameDigitsInMillimetresAndMilliseconds)
   const double difference = plain.difference(scaled);
   std::cout << "  other units: " << difference << " relative\n";
   EXPECT_LE(difference, 1e-11);
+}
+
+/// Force on a plate along the grid after it has passed over three rows of cells.
+Vec3 force_on_passing_plate(fluid::SideKind z_sides)
+{
+  const Slab slab{.x = {-1.5, 1.5, 60}, .y = {-1.5, 1.5, 60}, .depth = 0.05, .stream = 0.0, .z_sides = z_sides};
+  const Plate plate{.degrees = 90.0, .centre = {0.613, 0.017, 0.0}, .velocity = {-1.0, 0.0, 0.0}};
+  const auto flow = make_flow(slab);
+  for (int n = 0; n < 15; ++n) {
+    flow->step(0.01, plate.at(flow->t + 0.01, slab.depth));
+    flow->solver.accept();
+  }
+  return coefficients(total_force(flow->solver.loads()), slab.depth);
+}
+
+TEST(Flow, OfASlabDoesNotKnowWhetherItIsPeriodicOrBetweenSymmetryPlanes)
+{
+  const Vec3 symmetric = force_on_passing_plate(fluid::SideKind::Symmetry);
+  const Vec3 periodic = force_on_passing_plate(fluid::SideKind::Periodic);
+  const double difference = (symmetric - periodic).norm() / periodic.norm();
+  std::cout << "  symmetric against periodic: " << difference << " relative\n";
+  EXPECT_LE(difference, 1e-9);
 }
 
 }  // namespace
