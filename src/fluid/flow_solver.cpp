@@ -47,8 +47,8 @@ FlowSolver::FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries b
       diffusive_rate_(options_.viscosity * std::max(operators::diffusive_rate(grid), boundary_.diffusive_rate())),
       links_(grid),
       balance_(grid),
-      state_{make_field3<double>(grid.owned()), make_field3<double>(grid.owned()), Field<double>(grid.owned()),
-             Field<double>(grid.owned())},
+      state_{make_field3<double>(grid.owned()), make_field3<double>(grid.owned()), make_field3<double>(grid.owned()),
+             Field<double>(grid.owned()), Field<double>(grid.owned())},
       u_before_(make_field3<double>(grid.owned())),
       u_(make_field3<double>(grid.owned())),
       U_(make_field3<double>(grid.owned())),
@@ -101,7 +101,7 @@ void FlowSolver::start(const VectorFunction& velocity, double t_0)
   project_stage(1.0, 0.0);
   p_.fill(0.0);  // the potential that corrected the initial fluxes is no pressure
   operators::recover_velocity(grid_, views(std::as_const(U_)), views(u_));
-  state_ = {u_, U_, p_, p_, 0};
+  state_ = {u_, U_, U_, p_, p_, 0.0, 0};
 }
 
 void FlowSolver::begin_step(const TimeStep& step, const immersed::SheetMotion& predicted)
@@ -273,9 +273,11 @@ void FlowSolver::accept()
     wall_nodes_->accept(links_);
   std::swap(u_before_, state_.u);
   state_.u = u_;
+  std::swap(state_.U_before, state_.U);
   std::swap(state_.U, U_);
   std::swap(state_.p_before, state_.p);
   state_.p = p_;
+  state_.dt = step_.dt;
   ++state_.steps;
 }
 
@@ -296,7 +298,8 @@ void FlowSolver::find_cut_links(const immersed::SheetMotion& predicted, double s
 {
   {
     const auto timer = profile_.time(Phase::Search);
-    links_.freeze(predicted, step_.dt, speed, views(std::as_const(state_.U)));
+    links_.freeze(predicted, step_.dt, speed,
+                  {views(std::as_const(state_.U)), views(std::as_const(state_.U_before)), state_.dt});
     if (cross_terms_)
       cross_terms_->freeze(links_);
     if (wall_nodes_)
@@ -625,6 +628,7 @@ void FlowSolver::update_load_fields()
     const double before = repaired_pressure_[n];
     p_load(c) = p_.view()(c) + (std::isnan(before) ? 0.0 : w * (p_.view()(c) - before));
   }
+  find_face_accelerations();
   if (cross_terms_) {
     fill_velocity_halo(views(u_));
     cross_terms_->update(links_, views(std::as_const(u_)), {1.0, SheetVelocity::Current});
@@ -636,11 +640,26 @@ void FlowSolver::update_load_fields()
   boundary_.fill_pressure(p_load);
 }
 
+/// (U^{n+1} - U^n)/(|S| dt) on the six faces of each cut cell.
+void FlowSolver::find_face_accelerations()
+{
+  const std::vector<immersed::CutCell>& cells = links_.cells();
+  face_acceleration_.resize(cells.size());
+  for (std::size_t n = 0; n < cells.size(); ++n)
+    for (int link = 0; link < 6; ++link) {
+      const int axis = link / 2;
+      const Index3 face = stepped(cells[n].cell, axis, link % 2);
+      face_acceleration_[n][link] = (U_[axis].view()(face) - state_.U[axis].view()(face)) /
+                                    (grid_.area(axis, face[0], face[1], face[2]) * step_.dt);
+    }
+}
+
 immersed::LoadFields FlowSolver::load_fields() const
 {
   return {.p = p_load_.view(),
           .u = views(u_),
           .u_star = std::span<const Vec3>(u_star_.data(), u_star_.size()),
+          .acceleration = face_acceleration_,
           .density = options_.density,
           .viscosity = options_.viscosity,
           .cross = cross_terms_ ? &*cross_terms_ : nullptr};
@@ -701,7 +720,7 @@ FlowOverStep FlowSolver::accepted_step()
   fill_velocity_halo(views(u_before_));
   fill_halos();
   return {.u_old = views(std::as_const(u_before_)),
-          .U_old = views(std::as_const(U_)),  // swapped by accept()
+          .U_old = views(std::as_const(state_.U_before)),
           .u = views(std::as_const(state_.u)),
           .U = views(std::as_const(state_.U)),
           .p = state_.p.view(),

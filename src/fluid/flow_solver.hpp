@@ -71,11 +71,13 @@ struct FlowOptions {
 
 /// The accepted flow at t^n: what a restart needs, with the offsets of cut faces.
 struct FlowState {
-  Field3<double> u;        ///< velocity at centres [L/T]
-  Field3<double> U;        ///< volume fluxes [L^3/T]
-  Field<double> p;         ///< kinematic pressure at t^{n-1/2} [L^2/T^2]
-  Field<double> p_before;  ///< at t^{n-3/2}
-  int steps = 0;           ///< accepted so far
+  Field3<double> u;         ///< velocity at centres [L/T]
+  Field3<double> U;         ///< volume fluxes [L^3/T]
+  Field3<double> U_before;  ///< at t^{n-1}
+  Field<double> p;          ///< kinematic pressure at t^{n-1/2} [L^2/T^2]
+  Field<double> p_before;   ///< at t^{n-3/2}
+  double dt = 0.0;          ///< t^n - t^{n-1} [T]; zero at t_0
+  int steps = 0;            ///< accepted so far
 };
 
 class FlowSolver {
@@ -172,6 +174,7 @@ class FlowSolver {
   void recover(const immersed::StageTime& time);
   void repair_pressure();
   void update_load_fields();
+  void find_face_accelerations();
   [[nodiscard]] double largest_speed() const;
   [[nodiscard]] double largest_flux_velocity() const;
   [[nodiscard]] immersed::LoadFields load_fields() const;
@@ -214,7 +217,8 @@ class FlowSolver {
   std::vector<Vec3> explicit_increment_;       ///< du of cut cells before the implicit wall terms of the stage
   std::vector<Vec3> pressure_push_;            ///< c dt G p of cut cells in the stage
   Field3<double> given_;                       ///< velocity of donors and wall nodes
-  std::vector<Vec3> u_star_;                   ///< velocity of cut cells that the wall terms of the stage have seen
+  std::vector<std::array<double, 6>> face_acceleration_;  ///< of the fluid that passes the faces of links_.cells()
+  std::vector<Vec3> u_star_;  ///< velocity of cut cells that the wall terms of the stage have seen
 };
 
 }  // namespace luff::fluid

@@ -30,7 +30,7 @@ CutLinks::CutLinks(const grid::Grid& grid)
 {
 }
 
-void CutLinks::freeze(const SheetMotion& predicted, double dt, double speed, const View3<const double>& U_old)
+void CutLinks::freeze(const SheetMotion& predicted, double dt, double speed, const FluxHistory& flow)
 {
   dt_ = dt;
   positions_ = predicted.position;
@@ -45,7 +45,7 @@ void CutLinks::freeze(const SheetMotion& predicted, double dt, double speed, con
   find_cells();
   find_flipped();
   find_given_back();
-  start_offsets(speed, U_old);
+  start_offsets(speed, flow);
 }
 
 /// What the hits know of the sheet: place, normal, velocity and acceleration; at closed bodies those of a rigid motion,
@@ -262,43 +262,94 @@ std::vector<double> decay_times(const grid::Grid& grid, std::size_t bodies, std:
   return times;
 }
 
+struct Offset {
+  double value;
+  double rate;
+};
+
+/// The critically damped return of the offset to zero from its value and its rate at t^n,
+///
+///   eps(t) = (eps + b t) exp(-t/tau),   b = eps' + eps/tau,
+///
+/// a plain decay where b = 0.
+Offset offset_at(const CutFace& face, double t)
+{
+  const double b = face.rate + face.offset / face.decay_time;
+  const double left = std::exp(-t / face.decay_time);
+  return {(face.offset + b * t) * left, (face.rate - b * t / face.decay_time) * left};
+}
+
 }  // namespace
 
-void CutLinks::start_offsets(double speed, const View3<const double>& U_old)
+void CutLinks::start_offsets(double speed, const FluxHistory& flow)
 {
+  set_decay_times(speed);
   std::vector<RigidVelocity> before;
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     before.push_back(velocity_before(predicted_body_velocity_[b], predicted_body_acceleration_[b], dt_));
+  const auto at_start = [&](int hit) -> Vec3 {
+    const int body = body_of_hit_[hit];
+    return body < 0 ? predicted_velocity_[hit] : before[body].at(places_[hit]);
+  };
+  for (CutFace& face : faces_) {
+    const auto* old = old_offset(key(face.axis, face.cell));
+    const Vec3 surface = 0.5 * (at_start(face.first) + at_start(face.last));
+    face.offset = old != nullptr ? old->offset
+                                 : fluid_velocity(face, flow.U) - surface.dot(face_normal(grid_, face.axis, face.cell));
+    if (decays_plainly(face))
+      face.rate = -face.offset / face.decay_time;
+    else
+      face.rate = old != nullptr ? old->rate : rate_of_newly_cut(face, flow);
+  }
+}
+
+/// Where something else depends on the offsets' decay: the offsets of a body add up to zero, and the nodes of the
+/// scheme curvib have offsets of their own.
+bool CutLinks::decays_plainly(const CutFace& face) const
+{
+  return held_ || body_of_hit_[face.first] >= 0;
+}
+
+void CutLinks::set_decay_times(double speed)
+{
   const std::vector<double> body_times =
       bodies_.empty() ? std::vector<double>()
                       : decay_times(grid_, bodies_.size(), faces_, body_of_hit_, predicted_velocity_, speed, dt_);
   for (CutFace& face : faces_) {
-    const auto at_start = [&](int hit) -> Vec3 {
-      return body_of_hit_[hit] < 0 ? predicted_velocity_[hit] : before[body_of_hit_[hit]].at(places_[hit]);
-    };
-    const Vec3 u_first = at_start(face.first);
-    const Vec3 u_last = at_start(face.last);
-    const double fastest = std::max({speed, u_first.norm(), u_last.norm()});
+    const double fastest =
+        std::max({speed, predicted_velocity_[face.first].norm(), predicted_velocity_[face.last].norm()});
     if (const int body = body_of_hit_[face.first]; body >= 0)
-      face.decay_time = body_times[body];
+      face.passage = body_times[body];
     else
-      face.decay_time = fastest > 0.0 ? distance_across(grid_, face.axis, face.cell) / fastest : dt_;
-    if (const auto* old = old_offset(key(face.axis, face.cell))) {
-      face.offset = old->second;
-    } else {
-      const auto [i, j, k] = face.cell;
-      const Vec3 normal = face_normal(grid_, face.axis, face.cell);
-      face.offset =
-          U_old[face.axis](i, j, k) / grid_.area(face.axis, i, j, k) - 0.5 * (u_first.dot(normal) + u_last.dot(normal));
-    }
+      face.passage = fastest > 0.0 ? distance_across(grid_, face.axis, face.cell) / fastest : dt_;
+    face.decay_time = decays_plainly(face) ? face.passage : shell_decay * face.passage;
   }
+}
+
+/// (U^n - U^{n-1})/(A dt) - a_b . e, as far as it leads back to the sheet: between 0 and -fastest_return eps/tau.
+/// Without bounds a very light shell throws the offset further than its own motion.
+double CutLinks::rate_of_newly_cut(const CutFace& face, const FluxHistory& flow) const
+{
+  if (flow.dt <= 0.0)
+    return 0.0;
+  const Vec3 acceleration = 0.5 * (predicted_acceleration_[face.first] + predicted_acceleration_[face.last]);
+  const double rate = (fluid_velocity(face, flow.U) - fluid_velocity(face, flow.U_before)) / flow.dt -
+                      acceleration.dot(face_normal(grid_, face.axis, face.cell));
+  const double fastest = -fastest_return * face.offset / face.decay_time;
+  return std::clamp(rate, std::min(0.0, fastest), std::max(0.0, fastest));
+}
+
+double CutLinks::fluid_velocity(const CutFace& face, const View3<const double>& U) const
+{
+  const auto [i, j, k] = face.cell;
+  return U[face.axis](i, j, k) / grid_.area(face.axis, i, j, k);
 }
 
 double CutLinks::face_velocity(const CutFace& face, const StageTime& time) const
 {
   const Vec3 normal = face_normal(grid_, face.axis, face.cell);
   const double sheet = 0.5 * (velocity(face.first, time).dot(normal) + velocity(face.last, time).dot(normal));
-  return sheet + face.offset * std::exp(-time.fraction * dt_ / face.decay_time);
+  return sheet + offset_at(face, time.fraction * dt_).value;
 }
 
 void CutLinks::impose_fluxes(const StageTime& time, const View3<double>& U) const
@@ -332,7 +383,8 @@ void CutLinks::accept()
   accepted_offsets_.resize(faces_.size());
   for (std::size_t n = 0; n < faces_.size(); ++n) {
     const CutFace& face = faces_[n];
-    accepted_offsets_[n] = {key(face.axis, face.cell), face.offset * std::exp(-dt_ / face.decay_time)};
+    const Offset end = offset_at(face, dt_);
+    accepted_offsets_[n] = {key(face.axis, face.cell), end.value, end.rate};
   }
   accepted_inside_ = inside_;
 }
@@ -366,10 +418,11 @@ bool CutLinks::keeps(std::int64_t key) const
 FluxOffsets CutLinks::accepted_offsets() const
 {
   FluxOffsets mine;
-  for (const auto& [face, offset] : accepted_offsets_)
+  for (const auto& [face, offset, rate] : accepted_offsets_)
     if (keeps(face)) {
       mine.face.push_back(face);
       mine.offset.push_back(offset);
+      mine.rate.push_back(rate);
     }
   for (const InsideCell& inside : accepted_inside_) {
     mine.inside.push_back(key(0, inside.cell));
@@ -382,19 +435,20 @@ void CutLinks::restore(const FluxOffsets& of_all_ranks)
 {
   accepted_offsets_.clear();
   for (std::size_t n = 0; n < of_all_ranks.face.size(); ++n)
-    accepted_offsets_.emplace_back(of_all_ranks.face[n], of_all_ranks.offset[n]);
-  std::sort(accepted_offsets_.begin(), accepted_offsets_.end());
+    accepted_offsets_.push_back({of_all_ranks.face[n], of_all_ranks.offset[n], of_all_ranks.rate[n]});
+  std::sort(accepted_offsets_.begin(), accepted_offsets_.end(),
+            [](const AcceptedOffset& a, const AcceptedOffset& b) { return a.face < b.face; });
   accepted_inside_.clear();
   for (std::size_t n = 0; n < of_all_ranks.inside.size(); ++n)
     if (const Index3 cell = face_of(of_all_ranks.inside[n]).second; grid_.owned().contains(cell))
       accepted_inside_.push_back({cell, static_cast<int>(of_all_ranks.inside_body[n])});
 }
 
-const std::pair<std::int64_t, double>* CutLinks::old_offset(std::int64_t key) const
+const CutLinks::AcceptedOffset* CutLinks::old_offset(std::int64_t key) const
 {
   const auto at = std::lower_bound(accepted_offsets_.begin(), accepted_offsets_.end(), key,
-                                   [](const auto& entry, std::int64_t k) { return entry.first < k; });
-  return at != accepted_offsets_.end() && at->first == key ? &*at : nullptr;
+                                   [](const auto& entry, std::int64_t k) { return entry.face < k; });
+  return at != accepted_offsets_.end() && at->face == key ? &*at : nullptr;
 }
 
 }  // namespace luff::immersed

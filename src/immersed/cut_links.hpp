@@ -60,7 +60,22 @@ struct CutFace {
   int first = 0;          ///< index of the hit next to P
   int last = 0;           ///< index of the hit next to N
   double offset = 0.0;    ///< flux velocity minus sheet velocity at t^n, eps [L/T]
+  double rate = 0.0;      ///< d eps/dt at t^n [L/T^2]
+  double passage = 0.0;   ///< d/speed, the time that the flow takes across the link [T]
   double decay_time = 0;  ///< tau [T]
+};
+
+/// tau of shells in parts of the time that the flow takes across the link: a critically damped return lasts about as
+/// long as a plain one of twice its tau (docs/numerics/immersed.md).
+inline constexpr double shell_decay = 0.6;
+/// Largest rate, in parts of eps/tau, at which the offset of a newly cut face begins to return.
+inline constexpr double fastest_return = 3.0;
+
+/// The fluxes that newly cut faces start from.
+struct FluxHistory {
+  View3<const double> U;         ///< at t^n [L^3/T]
+  View3<const double> U_before;  ///< at t^{n-1}
+  double dt = 0.0;               ///< t^n - t^{n-1} [T]; zero: nothing is known of t^{n-1}
 };
 
 /// A cell of the fluid with at least one cut link.  face[2a] is its low and face[2a+1] its high face along axis a: an
@@ -75,6 +90,7 @@ inline constexpr int open_link = -1;
 struct FluxOffsets {
   std::vector<std::int64_t> face;         ///< ascending
   std::vector<double> offset;             ///< eps [L/T]
+  std::vector<double> rate;               ///< d eps/dt [L/T^2]
   std::vector<std::int64_t> inside;       ///< cells inside closed bodies, by their low face of axis 0
   std::vector<std::int64_t> inside_body;  ///< number of the body
 };
@@ -89,14 +105,16 @@ class CutLinks {
 
   /// Finds crossings, cut faces and cells, and starts the flux offsets from the accepted fluxes:
   ///
-  ///   eps = the old offset where the link was cut at t^n, U^n_f/A_f - u_b^0 . e where it was not,  tau = d/speed.
+  ///   eps = the old offset where the link was cut at t^n, U^n_f/A_f - u_b^0 . e where it was not,
+  ///   eps' = the old rate, or (U^n_f - U^{n-1}_f)/(A_f dt) - a_b^0 . e within bounds,  tau = 0.6 d/speed.
   ///
-  /// At closed bodies u_b^0 is that of t^n, the predictor's u_b^0 - dt a_b^0: then the offsets around a body have no
-  /// net flux, whichever cells it takes in and gives back, and need no source of mass.  Collective.
+  /// At closed bodies u_b^0 is that of t^n, the predictor's u_b^0 - dt a_b^0, tau eps' = -eps and tau = d/speed: then
+  /// the offsets around a body have no net flux, whichever cells it takes in and gives back, and need no source of
+  /// mass.
   ///
   /// `speed` [L/T]: the reference speed of the flow; the sheet's own is used where it is larger.
   /// Collective.
-  void freeze(const SheetMotion& predicted, double dt, double speed, const View3<const double>& U_old);
+  void freeze(const SheetMotion& predicted, double dt, double speed, const FluxHistory& flow);
 
   /// Velocity u_b of the current coupling iterate at the vertices.
   void set_velocity(std::span<const Vec3> velocity);
@@ -163,7 +181,7 @@ class CutLinks {
     const int body = body_of(triangle);
     return body < 0 ? Vec3(Vec3::Zero()) : body_velocity_[body].spin;
   }
-  /// U_f = A (u_b . e + eps exp(-c dt/tau)), into the fluxes of every cut face; U_f = A u_b . e between cells inside.
+  /// U_f = A (u_b . e + eps(c dt)), into the fluxes of every cut face; U_f = A u_b . e between cells inside.
   void impose_fluxes(const StageTime& time, const View3<double>& U) const;
 
  private:
@@ -174,7 +192,11 @@ class CutLinks {
   void find_cells();
   void find_flipped();
   void find_given_back();
-  void start_offsets(double speed, const View3<const double>& U_old);
+  void start_offsets(double speed, const FluxHistory& flow);
+  void set_decay_times(double speed);
+  [[nodiscard]] bool decays_plainly(const CutFace& face) const;
+  [[nodiscard]] double rate_of_newly_cut(const CutFace& face, const FluxHistory& flow) const;
+  [[nodiscard]] double fluid_velocity(const CutFace& face, const View3<const double>& U) const;
   [[nodiscard]] double face_velocity(const CutFace& face, const StageTime& time) const;
   void impose_fluxes_inside(const StageTime& time, const View3<double>& U) const;
   [[nodiscard]] std::vector<RigidVelocity> rigid_velocities(std::span<const Vec3> velocity) const;
@@ -182,7 +204,12 @@ class CutLinks {
   /// The cell whose low face a key stands for, and the axis.
   [[nodiscard]] std::pair<int, Index3> face_of(std::int64_t key) const;
   [[nodiscard]] bool keeps(std::int64_t key) const;
-  [[nodiscard]] const std::pair<std::int64_t, double>* old_offset(std::int64_t key) const;
+  struct AcceptedOffset {
+    std::int64_t face;
+    double offset;
+    double rate;
+  };
+  [[nodiscard]] const AcceptedOffset* old_offset(std::int64_t key) const;
   [[nodiscard]] bool was_cut(int axis, const Index3& cell) const { return old_offset(key(axis, cell)) != nullptr; }
 
   const grid::Grid& grid_;
@@ -210,9 +237,9 @@ class CutLinks {
   std::vector<CutCell> cells_;
   std::vector<InsideCell> inside_;
   std::vector<Index3> flipped_;
-  Field<char> solid_;  ///< 1 in the owned cells inside bodies
-  Field3<int> mark_;   ///< index into faces_ of each face of the owned cells, or open_link
-  std::vector<std::pair<std::int64_t, double>> accepted_offsets_;  ///< sorted by face
+  Field<char> solid_;                             ///< 1 in the owned cells inside bodies
+  Field3<int> mark_;                              ///< index into faces_ of each face of the owned cells, or open_link
+  std::vector<AcceptedOffset> accepted_offsets_;  ///< sorted by face
   std::vector<InsideCell> accepted_inside_;
 };
 

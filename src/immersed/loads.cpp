@@ -61,14 +61,29 @@ Vec3 turning_shear(const CutLinks& links, const LoadFields& fields, int triangle
   return -fields.density * fields.viscosity * links.spin_at(triangle).cross(n);
 }
 
+/// a_W - a_c: what the kinematic pressure rises by per length towards the sheet beyond what it does behind the cell,
+/// because the fluid at the cut face is accelerated otherwise than that at the face behind.  At closed bodies, which
+/// have fluid on one side of the cut face only, the steps of cells would be accelerated with them: nothing is added.
+double slope_of_inertia(const CutLinks& links, const LoadFields& fields, const HitView& view)
+{
+  const int hit = view.hit(links);
+  if (fields.acceleration.empty() || links.looks_inside(hit, 0) || links.looks_inside(hit, 1))
+    return 0.0;
+  const std::array<double, 6>& a = fields.acceleration[view.n];
+  const double towards = view.side == 1 ? 1.0 : -1.0;
+  const double behind = view.open_behind() ? a[2 * view.axis + 1 - view.side] : 0.0;
+  return towards * (behind - a[2 * view.axis + view.side]);
+}
+
 HitTraction one_sided(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const HitView& view)
 {
   const CutAxis along = cut_axis(grid, links, view.cut, view.axis, {1.0, SheetVelocity::Current});
   const Vec3 out =
       (view.side == 1 ? -1.0 : 1.0) * face_normal(grid, view.axis, stepped(view.cut.cell, view.axis, view.side));
   const double p_here = fields.p(view.cut.cell);
-  const double slope = view.open_behind() ? (p_here - fields.p(view.behind())) / along.distance[1 - view.side]
-                                          : 0.0;  // towards the sheet
+  const double slope =  // towards the sheet
+      (view.open_behind() ? (p_here - fields.p(view.behind())) / along.distance[1 - view.side] : 0.0) +
+      slope_of_inertia(links, fields, view);
   return {.pressure = fields.density * (p_here + along.theta[view.side] * along.distance[view.side] * slope),
           .viscous = fields.density * wall_shear(grid, links, fields, view, along) +
                      turning_shear(links, fields, links.crossings()[view.hit(links)].triangle, out)};

@@ -30,6 +30,8 @@ struct LoadFields {
   View<const double> p;
   View3<const double> u;
   std::span<const Vec3> u_star;  ///< of links.cells(): the velocity that the implicit wall terms have seen
+  /// of links.cells(): rates of the mean velocities of their faces over the step [L/T^2], low and high of each axis
+  std::span<const std::array<double, 6>> acceleration = {};
   double density = 1.0;
   double viscosity = 0.0;             ///< kinematic
   const CrossTerms* cross = nullptr;  ///< of u, on curvilinear grids
@@ -46,9 +48,15 @@ struct LoadFields {
 /// the narrower stencil leaves out is not lost (docs/numerics/immersed.md).  On curvilinear grids lengths and areas are
 /// those of the gradient flux (cell_metric.hpp), and the cross flux through the face belongs to tau.  A body that turns
 /// feels -mu spin x n besides: its own velocity changes along the surface, so that the transposed gradient does not
-/// vanish.  That has no force in all but the moment -2 mu V spin.  p_L, p_R
-/// extrapolated linearly to the sheet from the cells of the same side. The hit's force goes to the triangle's vertices
-/// with its barycentric weights: force and moment are conserved. Collective; the same numbers on every rank.
+/// vanish.  That has no force in all but the moment -2 mu V spin.  p_L, p_R are extrapolated to the sheet from the
+/// cells of their side,
+///
+///   p = p_P + theta d [(p_P - p_W)/d_W + a_W - a_c],
+///
+/// a_W and a_c the accelerations towards the sheet of the fluid at the face behind the cell and at the cut face: with
+/// that slope the fluid between the centre and the sheet has the momentum that the fluxes have (a_W - a_c is left out
+/// at closed bodies).  The hit's force goes to the triangle's vertices with its barycentric weights: force and moment
+/// are conserved.  Collective; the same numbers on every rank.
 [[nodiscard]] SheetLoads sheet_loads(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields,
                                      std::size_t vertices);
 

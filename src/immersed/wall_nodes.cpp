@@ -139,7 +139,7 @@ void WallNodes::find_feet(const CutLinks& links)
     WallNode& node = nodes_[n];
     node.foot = surface.closest(place, hit.triangle);
     node.plus = (near.side == 0) == (hit.side > 0);
-    node.decay_time = links.faces()[near.face].decay_time;
+    node.decay_time = links.faces()[near.face].passage;
     const Vec3 from_foot = place - node.foot.place;
     node.distance = from_foot.norm();
     const auto [i, j, k] = cut.cell;

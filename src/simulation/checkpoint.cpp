@@ -27,8 +27,10 @@ void transfer_flow(File& file, State& flow)
 {
   file.cells("flow/u", flow.u);
   file.faces("flow/U", flow.U);
+  file.faces("flow/U_before", flow.U_before);
   file.cells("flow/p", flow.p);
   file.cells("flow/p_before", flow.p_before);
+  file.value("flow/dt", flow.dt);
   file.value("flow/steps", flow.steps);
 }
 
@@ -37,6 +39,7 @@ void transfer_offsets(File& file, Offsets& offsets)
 {
   file.pieces("flow/cut_face", offsets.face);
   file.pieces("flow/cut_face_offset", offsets.offset);
+  file.pieces("flow/cut_face_offset_rate", offsets.rate);
   file.pieces("flow/inside_cell", offsets.inside);
   file.pieces("flow/inside_body", offsets.inside_body);
 }

@@ -6,7 +6,19 @@
 
 namespace luff::test {
 
-/// Force on a plate at 70 degrees, Re = 100, h = L/25, over time.
+/// A plate of length 1 that moves at speed 1 against fluid: through still fluid (stream 0), or fixed in a stream (1).
+struct PlateRun {
+  double stream = 0.0;
+  double dt = 0.005;
+  Vec3 centre{0.007, 0.003, 0.0};
+  double degrees = 70.0;
+  double h = 0.04;
+  double viscosity = 0.01;
+  double end = 2.0;
+  fluid::ImmersedScheme scheme = fluid::ImmersedScheme::CutLink;
+};
+
+/// Force over time.
 struct History {
   double dt = 0.0;
   std::vector<Vec3> force;
@@ -22,21 +34,21 @@ struct History {
   }
 };
 
-/// Through still fluid (stream 0) or fixed in a stream, the same motion of one against the other.
-inline History history_of_plate(double stream, double dt, const Vec3& centre,
-                                fluid::ImmersedScheme scheme = fluid::ImmersedScheme::CutLink)
+inline History history_of(const PlateRun& run)
 {
-  const double h = 0.04;
-  const Slab slab{.x = {-5.0, 4.0, 100 + 32, grid::Refinement{-2.8, 1.2, h}},
-                  .y = {-3.0, 3.0, 40 + 34, grid::Refinement{-0.8, 0.8, h}},
+  const double h = run.h;
+  const int cells = static_cast<int>(std::lround(4.0 / h));
+  const int across = static_cast<int>(std::lround(1.6 / h));
+  const Slab slab{.x = {-5.0, 4.0, cells + 32, grid::Refinement{-2.8, 1.2, h}},
+                  .y = {-3.0, 3.0, across + 34, grid::Refinement{-0.8, 0.8, h}},
                   .depth = h,
-                  .stream = stream,
-                  .viscosity = 0.01};
-  const Plate plate{.degrees = 70.0, .centre = centre, .velocity = {stream - 1.0, 0.0, 0.0}};
-  const auto flow = make_flow(slab, MPI_COMM_WORLD, {.immersed = scheme, .viscosity = slab.viscosity});
-  History history{.dt = dt, .force = {}};
-  for (int n = 0; n < std::lround(2.0 / dt); ++n) {
-    flow->step(dt, plate.at(flow->t + dt, slab.depth));
+                  .stream = run.stream,
+                  .viscosity = run.viscosity};
+  const Plate plate{.degrees = run.degrees, .centre = run.centre, .velocity = {run.stream - 1.0, 0.0, 0.0}};
+  const auto flow = make_flow(slab, MPI_COMM_WORLD, {.immersed = run.scheme, .viscosity = slab.viscosity});
+  History history{.dt = run.dt, .force = {}};
+  for (int n = 0; n < std::lround(run.end / run.dt); ++n) {
+    flow->step(run.dt, plate.at(flow->t + run.dt, slab.depth));
     history.force.push_back(coefficients(total_force(flow->solver.loads()), slab.depth));
     flow->solver.accept();
   }

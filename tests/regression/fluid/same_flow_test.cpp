@@ -45,7 +45,7 @@ TEST(Flow, HasTheSameDigitsInMillimetresAndMilliseconds)
 /// Force on a plate along the grid after it has passed over three rows of cells.
 Vec3 force_on_passing_plate(fluid::SideKind z_sides)
 {
-  const Slab slab{.x = {-1.5, 1.5, 60}, .y = {-1.5, 1.5, 60}, .depth = 0.05, .stream = 0.0, .z_sides = z_sides};
+  const Slab slab{.x = {-1.5, 1.5, 60, {}}, .y = {-1.5, 1.5, 60, {}}, .depth = 0.05, .stream = 0.0, .z_sides = z_sides};
   const Plate plate{.degrees = 90.0, .centre = {0.613, 0.017, 0.0}, .velocity = {-1.0, 0.0, 0.0}};
   const auto flow = make_flow(slab);
   for (int n = 0; n < 15; ++n) {

@@ -164,11 +164,13 @@ TEST(SealedPart, BehindAGateThatStillMovesLeaksAsMuchAsItIsPressed)
 {
   TestFlow flow(stretched_box(), {{{slip, outflow}, {slip, slip}, {slip, slip}}}, {.viscosity = 0.02});
   flow.solver.start(fluid::VectorFunction::uniform(Vec3::Zero()), 0.0);
-  flow.step(0.01, gate(0.0, {-0.3, 0.0, 0.0}));
-  flow.solver.accept();
-  EXPECT_LE(largest_divergence(flow), 1e-13);
-  EXPECT_GT(flow.solver.balance().leak(),
-            0.005);  // in a step the face's velocity goes a few hundredths of the way to 0.3
+  for (int n = 0; n < 5; ++n) {
+    flow.step(0.01, gate(0.0, {-0.3, 0.0, 0.0}));
+    flow.solver.accept();
+    EXPECT_LE(largest_divergence(flow), 1e-13);
+  }
+  // In five steps the face's velocity goes a few hundredths of the way to 0.3.
+  EXPECT_GT(flow.solver.balance().leak(), 0.005);
   const auto U = views(flow.solver.state().U);
   for (const immersed::CutFace& face : flow.solver.links().faces())
     EXPECT_NEAR(U[face.axis](face.cell), 0.0, 1e-12);

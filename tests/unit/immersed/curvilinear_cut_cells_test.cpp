@@ -49,7 +49,7 @@ struct Flow {
   }
   void freeze(const SheetMotion& sheet)
   {
-    links.freeze(sheet, 0.1, 1.0, views(std::as_const(U)));
+    links.freeze(sheet, 0.1, 1.0, {views(std::as_const(U)), views(std::as_const(U)), 0.0});
     if (!cross)
       return;
     cross->freeze(links);

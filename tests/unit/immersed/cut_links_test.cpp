@@ -48,6 +48,7 @@ class CutCells : public ::testing::Test {
         links(grid),
         u(make_field3<double>(grid.owned())),
         U(make_field3<double>(grid.owned())),
+        U_before(make_field3<double>(grid.owned())),
         p(grid.owned())
   {
   }
@@ -71,7 +72,7 @@ class CutCells : public ::testing::Test {
   }
   void freeze(const SheetMotion& sheet, double dt = 0.1, double speed = 1.0)
   {
-    links.freeze(sheet, dt, speed, views(std::as_const(U)));
+    links.freeze(sheet, dt, speed, {views(std::as_const(U)), views(std::as_const(U_before)), dt});
   }
   [[nodiscard]] Vec3 place(const Crossing& hit) const
   {
@@ -82,7 +83,7 @@ class CutCells : public ::testing::Test {
 
   grid::Grid grid;
   CutLinks links;
-  Field3<double> u, U;
+  Field3<double> u, U, U_before;
   Field<double> p;
 };
 
@@ -123,7 +124,8 @@ TEST_F(CutCells, KnowWhereTheSheetWasDuringTheStep)
     surface::Rectangle before = tilted;
     before.origin -= (1.0 - fraction) * dt * velocity;
     CutLinks then(grid);
-    then.freeze(moving(before, [&](const Vec3&) { return velocity; }), dt, 1.0, views(std::as_const(U)));
+    then.freeze(moving(before, [&](const Vec3&) { return velocity; }), dt, 1.0,
+                {views(std::as_const(U)), views(std::as_const(U)), 0.0});
     int compared = 0;
     for (std::size_t q = 0; q < links.crossings().size(); ++q)
       for (const Crossing& hit : then.crossings()) {
@@ -193,24 +195,46 @@ TEST_F(CutCells, BetweenTwoSheetsFeelNoGradientAcrossThem)
   EXPECT_GT(between, 0);
 }
 
-TEST_F(CutCells, FluxOfANewlyCutFaceDecaysToThatOfTheSheetWithinACellsPassage)
+TEST_F(CutCells, FluxOfANewlyCutFaceGoesOnAsItWasAndReturnsToThatOfTheSheet)
 {
-  set_flow([](const Vec3&) { return Vec3(1.0, 0.0, 0.0); });
   const double dt = 0.02;
   const double speed = 2.0;
-  const SheetMotion sheet = upright(0.47, 0.25);
-  double t = 0.0;
-  for (int step = 0; step < 3; ++step) {
-    freeze(sheet, dt, speed);
-    for (const double fraction : {0.5, 1.0}) {
-      links.impose_fluxes({fraction}, views(U));
-      const CutFace& face = links.faces().front();
-      const double tau = grid.distance(0, face.cell[0]) / speed;
-      EXPECT_NEAR(U[0].view()(face.cell) / grid.area(0, face.cell[0], face.cell[1], face.cell[2]),
-                  0.25 + 0.75 * std::exp(-(t + fraction * dt) / tau), 1e-14);
+  const double acceleration = 3.0;
+  SheetMotion sheet = upright(0.47, 0.25);
+  sheet.acceleration.assign(sheet.position.size(), Vec3(acceleration, 0.0, 0.0));
+  const auto with_flow_before = [&](double before, const std::function<double(double)>& rate_within) {
+    set_flow([&](const Vec3&) { return Vec3(before, 0.0, 0.0); });
+    U_before = U;
+    set_flow([](const Vec3&) { return Vec3(1.0, 0.0, 0.0); });
+    CutLinks fresh(grid);
+    for (double t = 0.0; t < 2.5 * dt; t += dt) {
+      fresh.freeze(sheet, dt, speed, {views(std::as_const(U)), views(std::as_const(U_before)), dt});
+      const CutFace& face = fresh.faces().front();
+      const double tau = shell_decay * grid.distance(0, face.cell[0]) / speed;
+      for (const double fraction : {0.0, 0.5, 1.0}) {
+        fresh.impose_fluxes({fraction}, views(U));
+        const double since = t + fraction * dt;
+        const double offset = (0.75 + (rate_within(tau) + 0.75 / tau) * since) * std::exp(-since / tau);
+        EXPECT_NEAR(U[0].view()(face.cell) / grid.area(0, face.cell[0], face.cell[1], face.cell[2]),
+                    0.25 - (1.0 - fraction) * dt * acceleration + offset, 1e-14)
+            << "before " << before << ", t = " << since;
+      }
+      fresh.accept();
     }
-    links.accept();
-    t += dt;
+  };
+  with_flow_before(1.1, [&](double) { return (1.0 - 1.1) / dt - acceleration; });
+  with_flow_before(0.9, [](double) { return 0.0; });  // away from the sheet: not followed
+  with_flow_before(5.0, [](double tau) { return -3.0 * 0.75 / tau; });
+}
+
+TEST_F(CutCells, AreCutAtTheStartWithoutARate)
+{
+  set_flow([](const Vec3&) { return Vec3(1.0, 0.0, 0.0); });
+  const SheetMotion sheet = upright(0.47, 0.25);
+  links.freeze(sheet, 0.02, 2.0, {views(std::as_const(U)), views(std::as_const(U_before)), 0.0});
+  ASSERT_FALSE(links.faces().empty());
+  for (const CutFace& face : links.faces()) {
+    EXPECT_EQ(face.rate, 0.0);
   }
 }
 

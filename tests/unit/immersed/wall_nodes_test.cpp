@@ -46,7 +46,7 @@ struct Nodes {
       : grid(g), links(g), nodes(g), u(make_field3<double>(g.owned()))
   {
     auto U = make_field3<double>(g.owned());
-    links.freeze(sheet, 0.1, 1.0, views(std::as_const(U)));
+    links.freeze(sheet, 0.1, 1.0, {views(std::as_const(U)), views(std::as_const(U)), 0.0});
     nodes.freeze(links);
     for_each_cell_in_order(g.owned().grown(1), [&](int i, int j, int k) {
       const Vec3 v = velocity(g.centre(i, j, k));

@@ -151,10 +151,9 @@ TEST(CurvibPlates, TakeTheMomentumThatTheyTakeWithCutLinksAndFeelMostOfIt)
 
 TEST(CurvibMovingPlate, FeelsTheForceOfTheSamePlateFixedInAStreamAndItsNoiseDoesNotGrowWithShorterSteps)
 {
-  const Vec3 centre{0.007, 0.003, 0.0};
-  const double drag = history_of_plate(1.0, 0.005, centre, ImmersedScheme::Curvib).mean()[0];
-  const History moving = history_of_plate(0.0, 0.005, centre, ImmersedScheme::Curvib);
-  const History shorter = history_of_plate(0.0, 0.0025, centre, ImmersedScheme::Curvib);
+  const double drag = history_of({.stream = 1.0, .scheme = ImmersedScheme::Curvib}).mean()[0];
+  const History moving = history_of({.scheme = ImmersedScheme::Curvib});
+  const History shorter = history_of({.dt = 0.0025, .scheme = ImmersedScheme::Curvib});
   std::cout << "  mean drag fixed " << drag << ", moving " << moving.mean()[0] << " and with dt/2 " << shorter.mean()[0]
             << "; noise " << 100.0 * noise(moving, 0.16) / drag << " % and with dt/2 "
             << 100.0 * noise(shorter, 0.16) / drag << " % of the drag\n";
