@@ -374,7 +374,7 @@ TEST(ACoupledRun, AgreesOnOneTwoAndFourRanksTo1e7)
     outs[ranks] = "out" + std::to_string(ranks);
     const Outcome run = luff_on_ranks(
         ranks, folder,
-        {"run", "case.toml", "--out", outs[ranks], "--set", "coupling.tolerance=1e-8", "--set", "output.audit=1"});
+        {"run", "case.toml", "--out", outs[ranks], "--set", "coupling.tolerance=1e-10", "--set", "output.audit=1"});
     ASSERT_EQ(run.status, 0) << run.said;
   }
   for (const int ranks : {2, 4})
