@@ -39,7 +39,7 @@ UNPLOTTED = {"step", "t", "dt"}
 plt.rcParams.update({
     "figure.dpi": 110, "savefig.dpi": 150, "font.size": 10, "axes.spines.top": False, "axes.spines.right": False,
     "axes.grid": True, "grid.color": "#e4e4e4", "grid.linewidth": 0.8, "axes.axisbelow": True, "lines.linewidth": 1.5,
-    "axes.prop_cycle": plt.cycler(color=COLOURS), "legend.frameon": False, "savefig.bbox": "tight",
+    "axes.prop_cycle": plt.cycler(linestyle=["-", "--"]) * plt.cycler(color=COLOURS), "legend.frameon": False, "savefig.bbox": "tight",
 })
 
 
