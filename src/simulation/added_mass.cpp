@@ -120,14 +120,14 @@ double borrowed_mass(double added_mass_ratio)
   return std::max(0.0, added_mass_ratio / heaviest_fluid - 1.0);
 }
 
-std::string describe_coupling(double added_mass_ratio, Scheme scheme, const shell::TimeScheme& of_shells)
+std::string describe_coupling(double added_mass_ratio, Simulation& simulation)
 {
-  const double limit = loose_limit(of_shells);
+  const double limit = loose_limit(simulation.structure().shells().dynamics->scheme());
   const std::string mass =
       fmt::format("fluid that moves with the shells: up to {:.3g} times their own mass (added mass)", added_mass_ratio);
   if (added_mass_ratio < limit)
     return fmt::format("{}: loose coupling is stable, its limit is {:.2g}", mass, limit);
-  if (scheme == Scheme::Loose)
+  if (simulation.policy().scheme == Scheme::Loose)
     return fmt::format(
         "WARNING: {}: loose coupling is unstable above {:.2g}, however short the steps; set coupling.scheme = "
         "\"strong\"",

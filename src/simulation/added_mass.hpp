@@ -28,7 +28,7 @@ namespace luff::simulation {
 /// with them is at most ten times as heavy; in parts of their own, zero where they are heavy enough.
 [[nodiscard]] double borrowed_mass(double added_mass_ratio);
 
-/// What that means for a case coupled by this scheme, in words.
-[[nodiscard]] std::string describe_coupling(double added_mass_ratio, Scheme scheme, const shell::TimeScheme& of_shells);
+/// What that means for a simulation, by the scheme that couples it, in words.
+[[nodiscard]] std::string describe_coupling(double added_mass_ratio, Simulation& simulation);
 
 }  // namespace luff::simulation

@@ -75,13 +75,13 @@ std::function<bool()> anywhere(MPI_Comm comm, const std::function<bool()>& here)
 void prepare_coupling(Simulation& simulation, spdlog::logger& log)
 {
   Structure& structure = simulation.structure();
-  const Scheme scheme = simulation.policy().scheme;
-  if (simulation.surroundings().flow() == nullptr || !structure.shells().dynamics || scheme == Scheme::Loose)
+  if (simulation.surroundings().flow() == nullptr || !structure.shells().dynamics ||
+      simulation.policy().scheme == Scheme::Loose)
     return;
   try {
     const double ratio = added_mass_ratio(simulation);
     structure.borrow_mass(borrowed_mass(ratio));
-    log.info("{}", describe_coupling(ratio, scheme, structure.shells().dynamics->scheme()));
+    log.info("{}", describe_coupling(ratio, simulation));
   } catch (const NonConvergence& trouble) {  // steps can be halved, this cannot
     log.warn("how heavy the fluid is that moves with the shells is not known: {}", trouble.what());
   }
@@ -244,12 +244,10 @@ void check_case(MPI_Comm comm, const std::filesystem::path& file, const config::
   if (!marches(options))
     (void)build_still(options);
   std::vector<std::string> groups = describe_groups(options, *structure, grid.get());
-  if (grid && !options.shells.empty())
-    groups.push_back([&] {
-      const std::unique_ptr<Simulation> simulation = build_simulation(comm, options);
-      return describe_coupling(added_mass_ratio(*simulation), simulation->policy().scheme,
-                               simulation->structure().shells().dynamics->scheme());
-    }());
+  if (grid && !options.shells.empty()) {
+    const std::unique_ptr<Simulation> simulation = build_simulation(comm, options);
+    groups.push_back(describe_coupling(added_mass_ratio(*simulation), *simulation));
+  }
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   if (rank != 0)
