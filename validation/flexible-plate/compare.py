@@ -4,7 +4,7 @@
 
 Usage: validation/flexible-plate/compare.py [--out DIR] [--levels F...] [--end T]
 
-Runs cases/flexible-plate/case.toml with --resolution F (default 0.667) up to T (default 30) into DIR/<cells per width>
+Runs cases/flexible-plate/case.toml with --resolution F (default 1) up to T (default 30) into DIR/<cells per width>
 (default validation/flexible-plate/results) unless it is there already, prints a table, and writes DIR/flexible-plate.png.
 Values are means over the last two thirds of the run, with the largest departure from them in it.  Drag is that of half a plate, doubled.
 """
@@ -53,7 +53,7 @@ def histories(out):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, default=here / "results")
-    parser.add_argument("--levels", nargs="+", default=["0.667"])
+    parser.add_argument("--levels", nargs="+", default=["1"])
     parser.add_argument("--end", type=float, default=30.0)
     arguments = parser.parse_args()
     published = references()
