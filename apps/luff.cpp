@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <mpi.h>
 #include <omp.h>
 #include <spawn.h>
@@ -76,7 +77,8 @@ int fail(const char* what, int status)
 {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  const auto say = [what] { std::cerr << "luff: " << what << std::endl; };
+  // In one piece: the launcher of ranks mixes what comes in several with other lines.
+  const auto say = [line = fmt::format("luff: {}\n", what)] { std::cerr << line << std::flush; };
   if (rank == 0)
     say();
   if (!luff::all_ranks_arrive(MPI_COMM_WORLD)) {
