@@ -176,8 +176,7 @@ void describe(Schema& s, OutputOptions& output)
   s.key("audit", output.audit,
         {.doc = "Steps between audits of the forces of the flow: their sum over a surface against the momentum of the "
                 "fluid around it (`audit.csv`, `force_mismatch` in `steps.csv`, `audit` in the summary), and of what "
-                "changes "
-                "the flow's energy. 0: none.",
+                "changes the flow's energy. 0: none.",
          .range = not_negative});
   s.key("plots", output.plots, {.doc = "Make the pictures of `luff plot` when the run ends."});
   s.list("probe", output.probes, {.doc = "A point whose history is written in every step."});

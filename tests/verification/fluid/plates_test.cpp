@@ -129,7 +129,7 @@ TEST(MovingPlate, FeelsTheForceOfTheSamePlateFixedInAStreamWithLittleNoiseAtAnyS
 
 struct Passage {
   double degrees;
-  double noise;  ///< at most, of a drag coefficient of 1.9 to 2.7
+  double noise;  ///< at most, of a drag coefficient of 2 to 3
 };
 
 class NoiseOfPlates : public ::testing::TestWithParam<Passage> {};
