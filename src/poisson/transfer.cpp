@@ -46,21 +46,14 @@ void Transfer::make_tables()
   split_ = (n + 1) / 2 + 2 * pad;
   natural_stride_ = N + 2 * pad;
   natural_.assign(natural_stride_ * (home_.extent(1) + 2) * (home_.extent(2) + 2) + 2 * pad, 0.0f);
-  for (auto& weight : weight_)
-    weight.assign((n + 1) / 2 + 2 * pad, 0.0f);
-  regular_ = true;
-  for (int i = 0; i < n; ++i) {
-    regular_ = regular_ && x.parent[i] == i / 2;
-    weight_[i & 1][pad + (i >> 1)] = static_cast<float>(x.weight[i]);
-    child_[i & 1].push_back(2 * x.parent[i] + (i > x.first[x.parent[i]] ? 1 : 0));
-  }
-  const auto place = [&](int i) { return static_cast<int>(pad + (i & 1) * split_ + (i >> 1)); };
+  weight_.assign(2 * split_ + pad, 0.0f);
+  for (int i = 0; i < n; ++i)
+    weight_[pad + split_place(i)] = static_cast<float>(x.weight[i]);
   for (int I = 0; I < N; ++I) {
     const bool pair = x.first[I + 1] - x.first[I] == 2;
-    first_.push_back(place(x.first[I]));
-    second_.push_back(pair ? place(x.first[I] + 1) : 0);  // place 0 always holds zero
-    weight_first_.push_back(static_cast<float>(x.weight[x.first[I]]));
-    weight_second_.push_back(pair ? static_cast<float>(x.weight[x.first[I] + 1]) : 0.0f);
+    if (runs_.empty() || runs_.back().pairs != pair)
+      runs_.push_back({.fine = x.first[I], .coarse = I, .count = 0, .pairs = pair});
+    ++runs_.back().count;
   }
 }
 
@@ -165,40 +158,55 @@ void Transfer::add_rows(const Rows& rows, int parity, Scratch& s) const
   }
 }
 
-/// F_I = sum over children (all_i - w_i own_i) + w own of the cells next to I in its neighbours.
-void Transfer::combine_regular(Scratch& s) const
+/// Of a coarse cell with two children: sum (all_i - w_i own_i), and w own of either for the neighbour next to it.
+void Transfer::combine_pairs(const Run& run, Scratch& s) const
 {
-  const int N = coarse_.box().lines[0].n;
-  float* __restrict F = s.coarse.data() + pad;
-  const float* __restrict w0 = weight_[0].data() + pad;
-  const float* __restrict w1 = weight_[1].data() + pad;
-  const float* __restrict a0 = s.all.data() + pad;
-  const float* __restrict a1 = a0 + split_;
-  const float* __restrict b0 = s.own.data() + pad;
-  const float* __restrict b1 = b0 + split_;
+  const std::ptrdiff_t first = pad + split_place(run.fine);
+  const std::ptrdiff_t second = pad + split_place(run.fine + 1);
+  float* __restrict F = s.coarse.data() + pad + run.coarse;
+  float* __restrict low = s.low.data() + pad + run.coarse;
+  float* __restrict high = s.high.data() + pad + run.coarse;
+  const float* __restrict w_first = weight_.data() + first;
+  const float* __restrict w_second = weight_.data() + second;
+  const float* __restrict all_first = s.all.data() + first;
+  const float* __restrict all_second = s.all.data() + second;
+  const float* __restrict own_first = s.own.data() + first;
+  const float* __restrict own_second = s.own.data() + second;
 #pragma omp simd
-  for (int I = 0; I < N; ++I)
-    F[I] = a0[I] + a1[I] - w0[I] * b0[I] - w1[I] * b1[I] + w1[I - 1] * b1[I - 1] + w0[I + 1] * b0[I + 1];
+  for (int t = 0; t < run.count; ++t) {
+    low[t] = w_first[t] * own_first[t];
+    high[t] = w_second[t] * own_second[t];
+    F[t] = all_first[t] + all_second[t] - low[t] - high[t];
+  }
 }
 
-void Transfer::combine_irregular(Scratch& s) const
+/// Cells that stay alone along the row interpolate from no neighbour there.
+void Transfer::combine_singles(const Run& run, Scratch& s) const
 {
+  float* __restrict F = s.coarse.data() + pad + run.coarse;
+  const float* __restrict even = s.all.data() + pad + split_place(run.fine);
+  const float* __restrict odd = s.all.data() + pad + split_place(run.fine + 1);
+#pragma omp simd
+  for (int t = 0; t < run.count / 2; ++t) {
+    F[2 * t] = even[t];
+    F[2 * t + 1] = odd[t];
+  }
+  if (run.count % 2 == 1)
+    F[run.count - 1] = even[run.count / 2];
+}
+
+/// F_I = sum over children (all_i - w_i own_i) + w own of the cells next to I in its neighbours.
+void Transfer::combine(Scratch& s) const
+{
+  for (const Run& run : runs_)
+    if (run.pairs)
+      combine_pairs(run, s);
+    else
+      combine_singles(run, s);
   const int N = coarse_.box().lines[0].n;
   float* __restrict F = s.coarse.data() + pad;
-  float* __restrict low = s.low.data() + pad;
-  float* __restrict high = s.high.data() + pad;
-  const float* __restrict all = s.all.data();
-  const float* __restrict own = s.own.data();
-  const int* __restrict first = first_.data();
-  const int* __restrict second = second_.data();
-  const float* __restrict w_first = weight_first_.data();
-  const float* __restrict w_second = weight_second_.data();
-#pragma omp simd
-  for (int I = 0; I < N; ++I) {
-    low[I] = w_first[I] * own[first[I]];
-    high[I] = w_second[I] * own[second[I]];
-    F[I] = all[first[I]] + all[second[I]] - low[I] - high[I];
-  }
+  const float* __restrict low = s.low.data() + pad;
+  const float* __restrict high = s.high.data() + pad;
 #pragma omp simd
   for (int I = 0; I < N; ++I)
     F[I] += high[I - 1] + low[I + 1];
@@ -210,8 +218,9 @@ void Transfer::store_coarse_row(int J, int K, Scratch& s) const
   const int N = coarse_.box().lines[0].n;
   float* __restrict F = s.coarse.data() + pad;
   if (fine_.box().lines[0].periodic) {
-    F[0] += weight_second_[N - 1] * s.own[pad + ((n - 1) & 1) * split_ + ((n - 1) >> 1)];
-    F[N - 1] += weight_first_[0] * s.own[pad];
+    const std::ptrdiff_t last = pad + split_place(n - 1);
+    F[0] += weight_[last] * s.own[last];
+    F[N - 1] += weight_[pad] * s.own[pad];
   }
   const Layout& layout = coarse_.layout();
   for (int q = 0; q < 2; ++q) {
@@ -235,10 +244,7 @@ void Transfer::restrict_row(int J, int K, Scratch& s) const
     for (int parity = 0; parity < 2; ++parity)
       add_rows(rows[parity], parity, s);
   }
-  if (regular_)
-    combine_regular(s);
-  else
-    combine_irregular(s);
+  combine(s);
   store_coarse_row(J, K, s);
 }
 
@@ -285,7 +291,9 @@ void Transfer::begin_prolongation()
   prolong_extras();
 }
 
-void Transfer::add_regular(int j, int k, int colour)
+/// u_i += U_I + sum over axes of w (U_beside - U_I) for the cells of a colour; either all first or all second children
+/// of a run of pairs are of it, and every other cell of a run of single ones.
+void Transfer::add_coarse_row(int j, int k, int colour)
 {
   const Layout& layout = fine_.layout();
   const int J = merges_[1].parent[j];
@@ -293,61 +301,41 @@ void Transfer::add_regular(int j, int k, int colour)
   const auto wj = static_cast<float>(merges_[1].weight[j]);
   const auto wk = static_cast<float>(merges_[2].weight[k]);
   const int q = Layout::parity(j, k, colour);
-  const int m = layout.count(q);
-  const float* __restrict w = weight_[q].data() + pad;
-  const float* __restrict U = natural_.data() + natural_row(J, K);
-  const float* __restrict Ui = U + (q == 0 ? -1 : 1);
-  const float* __restrict Uj = natural_.data() + natural_row(J + merges_[1].towards[j], K);
-  const float* __restrict Uk = natural_.data() + natural_row(J, K + merges_[2].towards[k]);
-  float* __restrict u = fine_.u.data() + layout.start(j, k, colour);
+  const float* const row = natural_.data() + natural_row(J, K);
+  const float* const row_j = natural_.data() + natural_row(J + merges_[1].towards[j], K);
+  const float* const row_k = natural_.data() + natural_row(J, K + merges_[2].towards[k]);
+  for (const Run& run : runs_) {
+    const int skipped = (run.fine & 1) == q ? 0 : 1;
+    const int i = run.fine + skipped;
+    const float* __restrict w = weight_.data() + pad + split_place(i);
+    float* __restrict u = fine_.u.data() + layout.start(j, k, colour) + (i >> 1);
+    if (run.pairs) {
+      const float* __restrict U = row + run.coarse;
+      const float* __restrict Ui = U + (skipped == 0 ? -1 : 1);
+      const float* __restrict Uj = row_j + run.coarse;
+      const float* __restrict Uk = row_k + run.coarse;
 #pragma omp simd
-  for (int n = 0; n < m; ++n)
-    u[n] += U[n] + w[n] * (Ui[n] - U[n]) + wj * (Uj[n] - U[n]) + wk * (Uk[n] - U[n]);
-}
-
-/// First the values for the first and second child of every coarse cell of the row, then each fine cell picks its own.
-void Transfer::add_irregular(int j, int k, int colour, std::vector<float>& children)
-{
-  const Layout& layout = fine_.layout();
-  const int J = merges_[1].parent[j];
-  const int K = merges_[2].parent[k];
-  const int N = coarse_.box().lines[0].n;
-  const auto wj = static_cast<float>(merges_[1].weight[j]);
-  const auto wk = static_cast<float>(merges_[2].weight[k]);
-  const float* __restrict w_first = weight_first_.data();
-  const float* __restrict w_second = weight_second_.data();
-  const float* __restrict U = natural_.data() + natural_row(J, K);
-  const float* __restrict Uj = natural_.data() + natural_row(J + merges_[1].towards[j], K);
-  const float* __restrict Uk = natural_.data() + natural_row(J, K + merges_[2].towards[k]);
-  float* __restrict value = children.data();
+      for (int t = 0; t < run.count; ++t)
+        u[t] += U[t] + w[t] * (Ui[t] - U[t]) + wj * (Uj[t] - U[t]) + wk * (Uk[t] - U[t]);
+    } else {
+      const float* __restrict U = row + run.coarse + skipped;
+      const float* __restrict Uj = row_j + run.coarse + skipped;
+      const float* __restrict Uk = row_k + run.coarse + skipped;
+      const int m = (run.count - skipped + 1) / 2;
 #pragma omp simd
-  for (int I = 0; I < N; ++I) {
-    const float blend = U[I] + wj * (Uj[I] - U[I]) + wk * (Uk[I] - U[I]);
-    value[2 * I] = blend + w_first[I] * (U[I - 1] - U[I]);
-    value[2 * I + 1] = blend + w_second[I] * (U[I + 1] - U[I]);
+      for (int t = 0; t < m; ++t)
+        u[t] += U[2 * t] + wj * (Uj[2 * t] - U[2 * t]) + wk * (Uk[2 * t] - U[2 * t]);
+    }
   }
-  const int q = Layout::parity(j, k, colour);
-  const int m = layout.count(q);
-  const int* __restrict child = child_[q].data();
-  float* __restrict u = fine_.u.data() + layout.start(j, k, colour);
-#pragma omp simd
-  for (int n = 0; n < m; ++n)
-    u[n] += value[child[n]];
 }
 
 void Transfer::prolong_plane(int k)
 {
   const IndexBox& owned = fine_.layout().owned;
-  std::vector<float> children(regular_ ? 0 : 2 * coarse_.box().lines[0].n);
   for (int j = owned.lo[1]; j < owned.hi[1]; ++j)
-    for (int colour = 0; colour < 2; ++colour) {
-      if (!includes(fine_.residual_colours(), colour))
-        continue;
-      if (regular_)
-        add_regular(j, k, colour);
-      else
-        add_irregular(j, k, colour, children);
-    }
+    for (int colour = 0; colour < 2; ++colour)
+      if (includes(fine_.residual_colours(), colour))
+        add_coarse_row(j, k, colour);
   const int plane = k - owned.lo[2];
   for (int p = first_of_plane_[plane]; p < first_of_plane_[plane + 1]; ++p)
     fine_.u[prolongation_[p].fine] += prolongation_[p].weight * coarse_.u[prolongation_[p].coarse];

@@ -45,11 +45,19 @@ class Transfer {
   void restrict_row(int J, int K, Scratch& s) const;
   void gather_rows(int J, int K, int colour, std::array<Rows, 2>& rows) const;
   void add_rows(const Rows& rows, int parity, Scratch& s) const;
-  void combine_regular(Scratch& s) const;
-  void combine_irregular(Scratch& s) const;
+  /// Coarse cells next to each other in a row that all hold two fine cells, or all one.
+  struct Run {
+    int fine, coarse;  ///< the first of either
+    int count;         ///< of coarse cells
+    bool pairs;
+  };
+  void combine_pairs(const Run& run, Scratch& s) const;
+  void combine_singles(const Run& run, Scratch& s) const;
+  void combine(Scratch& s) const;
   void store_coarse_row(int J, int K, Scratch& s) const;
-  void add_regular(int j, int k, int colour);
-  void add_irregular(int j, int k, int colour, std::vector<float>& children);
+  void add_coarse_row(int j, int k, int colour);
+  /// Where cell i lies in split rows and in the tables made like them.
+  [[nodiscard]] std::ptrdiff_t split_place(int i) const { return (i & 1) * split_ + (i >> 1); }
   [[nodiscard]] std::ptrdiff_t natural_row(int J, int K) const
   {
     return 16 + (J - home_.lo[1] + 1) * natural_stride_ +
@@ -59,14 +67,11 @@ class Transfer {
   Level& fine_;
   Level& coarse_;
   std::array<Merge, 3> merges_;
-  IndexBox home_;                                    // coarse cells whose children this rank owns
-  bool regular_ = false;                             // coarse cell I holds the cells 2 I and 2 I + 1 of a row
-  std::array<std::vector<float>, 2> weight_;         // of fine cells, per parity of i, padded on both sides
-  std::array<std::vector<int>, 2> child_;            // of fine cells, per parity of i: 2 parent + (0 first, 1 second)
-  std::vector<int> first_, second_;                  // of coarse cells: places of their children in split rows
-  std::vector<float> weight_first_, weight_second_;  // of coarse cells: weights of their children
-  std::ptrdiff_t split_ = 0;                         // from even to odd cells in split rows
-  std::vector<float> natural_;                       // coarse.u, i fastest, with one layer around home
+  IndexBox home_;               // coarse cells whose children this rank owns
+  std::vector<Run> runs_;       // of a row
+  std::vector<float> weight_;   // of the cells of a row, split by parity of i
+  std::ptrdiff_t split_ = 0;    // from even to odd cells in split rows
+  std::vector<float> natural_;  // coarse.u, i fastest, with one layer around home
   std::ptrdiff_t natural_stride_ = 0;
   std::vector<Weight> restriction_;   // by coarse owner
   std::vector<Weight> prolongation_;  // by plane of the fine cell, extras last
