@@ -97,7 +97,7 @@ double ConjugateGradients::precondition()
   return sum;
 }
 
-/// p <- z + beta p, q <- A p; returns p.q.
+/// p <- z + beta p, q <- A p; returns p.q.  With beta = 0 the old p is not read.
 double ConjugateGradients::advance_direction(float beta)
 {
   Level& level = multigrid_.finest();
@@ -109,7 +109,7 @@ double ConjugateGradients::advance_direction(float beta)
       float* __restrict p = p_.data() + start;
 #pragma omp simd
       for (int n = 0; n < m; ++n)
-        p[n] = z[n] + beta * p[n];
+        p[n] = beta == 0.0f ? z[n] : z[n] + beta * p[n];
     });
     level.exchange().close_plane(p_.data(), k, Colours::Both);
   };
@@ -126,12 +126,17 @@ double ConjugateGradients::advance_direction(float beta)
   const int threads = threads_for(owned);
   const int prepared = cross_terms_ != nullptr ? 2 : 1;
   const auto stage = [&](int s, int k) { s == 0 ? direction(k) : s < prepared ? prepare(k) : image(k); };
-  const bool wave = level.exchange().within_planes();
-  if (cross_terms_ != nullptr)
-    cross_terms_->keep_all_planes(!wave || threads > 1);
-  if (wave) {
+  const RowExchange& halo = level.exchange();
+  if (cross_terms_ == nullptr && halo.of_planes()) {  // z came with its halo, so p gets its own without asking
+    for (const int k : {owned.lo[2] - 1, owned.hi[2]})
+      direction(k);
+    run_stages(owned.lo[2], owned.hi[2], 2, threads, stage);
+  } else if (halo.within_planes()) {
+    cross_terms_->keep_all_planes(threads > 1);
     run_stages(owned.lo[2], owned.hi[2], prepared + 1, threads, stage);
   } else {
+    if (cross_terms_ != nullptr)
+      cross_terms_->keep_all_planes(true);
     run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { direction(k); });
     fill_halo(p_);
     run_stages(owned.lo[2], owned.hi[2], prepared, threads, [&](int s, int k) { stage(s + 1, k); });
@@ -150,7 +155,7 @@ void ConjugateGradients::fill_halo(Values& values)
     exchange.exchange(values.data(), Colours::Both);
 }
 
-/// e <- e + alpha p, r <- r - alpha q.
+/// e <- e + alpha p, r <- r - alpha q.  The first time the old e is not read.
 ConjugateGradients::Norms ConjugateGradients::step(float alpha, bool first)
 {
   Level& level = multigrid_.finest();
@@ -164,12 +169,11 @@ ConjugateGradients::Norms ConjugateGradients::step(float alpha, bool first)
       const float* __restrict q = q_.data() + start;
       float* __restrict e = e_.data() + start;
       float* __restrict r = level.f.data() + start;
-      const float keep = first ? 0.0f : 1.0f;
       float rr = 0.0f;
       float ee = 0.0f;
 #pragma omp simd reduction(+ : rr, ee)
       for (int n = 0; n < m; ++n) {
-        e[n] = keep * e[n] + alpha * p[n];
+        e[n] = first ? alpha * p[n] : e[n] + alpha * p[n];
         r[n] -= alpha * q[n];
         rr += r[n] * r[n];
         ee += e[n] * e[n];
@@ -196,14 +200,11 @@ ConjugateGradients::Result ConjugateGradients::solve(double tolerance, int max_i
   double floor = 0.0;
   double best = 1.0;
   int without_gain = 0;
-  e_.resize(e_.size());
   while (result.iterations < max_iterations && result.reduction > std::max(tolerance, floor) &&
          without_gain < patience) {
     const double rz = precondition();
     ++result.iterations;
     const bool first = result.iterations == 1;
-    if (first)
-      p_.resize(p_.size());
     const double pq = advance_direction(first ? 0.0f : static_cast<float>(rz / rz_before));
     const double alpha = rz / pq;
     if (!std::isfinite(alpha)) {

@@ -315,6 +315,15 @@ void Multigrid::coarsen_cross_terms(std::size_t l)
   result.close();
 }
 
+/// Whether sweeps follow each other plane by plane although planes come from beyond this rank's block or a periodic
+/// seam; cross terms keep planes that the next one needs, which a wave with gaps would mix up.
+bool Multigrid::waves_between_halos(std::size_t l) const
+{
+  Level& level = *levels_[l];
+  return level.exchange().of_planes() && level.extras() == 0 && cross_terms_.empty() &&
+         threads_for(level.layout().owned) == 1;
+}
+
 void Multigrid::smooth_from_zero(std::size_t l)
 {
   Level& level = *levels_[l];
@@ -347,6 +356,12 @@ void Multigrid::smooth_from_zero(std::size_t l)
       residual_plane(k);
   };
   const int stages = 2 * sweeps + (cross != nullptr ? 2 : 1);
+  const auto share = [&](int s) {
+    if (s + 1 == 2 * sweeps && cross != nullptr)
+      halo.exchange_with_edges(level.u.data());
+    else if (s < 2 * sweeps)
+      halo.exchange(level.u.data(), s % 2 == 0 ? Colours::Red : Colours::Black);
+  };
   const bool wave = halo.within_planes() && level.extras() == 0;
   if (cross != nullptr)
     cross->keep_all_planes(!wave || threads > 1);
@@ -354,14 +369,15 @@ void Multigrid::smooth_from_zero(std::size_t l)
     run_stages(owned.lo[2], owned.hi[2], stages, threads, stage);
     return;
   }
+  if (waves_between_halos(l)) {
+    run_stages_between_halos(owned.lo[2], owned.hi[2], stages, stage, share);
+    return;
+  }
   for (int s = 0; s < stages; ++s) {
     if (s > 0 && s < 2 * sweeps && s % 2 == 0)
       level.relax_extras(Level::Order::Forward, /*from_zero=*/false);
     run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { stage(s, k); });
-    if (s + 1 == 2 * sweeps && cross != nullptr)
-      halo.exchange_with_edges(level.u.data());
-    else if (s < 2 * sweeps)
-      halo.exchange(level.u.data(), s % 2 == 0 ? Colours::Red : Colours::Black);
+    share(s);
   }
   level.residual_extras();
 }
@@ -383,16 +399,23 @@ void Multigrid::smooth(std::size_t l, const PlaneWork& after)
     else
       after(k);
   };
+  const auto share = [&](int s) {
+    if (s == 0)
+      halo.exchange(level.u.data(), level.residual_colours());
+    else if (s < stages)
+      halo.exchange(level.u.data(), s % 2 == 0 ? Colours::Red : Colours::Black);
+  };
   if (halo.within_planes() && level.extras() == 0) {
     run_stages(owned.lo[2], owned.hi[2], stages + 1, threads, stage);
     return;
   }
+  if (waves_between_halos(l)) {
+    run_stages_between_halos(owned.lo[2], owned.hi[2], stages + 1, stage, share);
+    return;
+  }
   for (int s = 0; s < stages; ++s) {
     run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { stage(s, k); });
-    if (s == 0)
-      halo.exchange(level.u.data(), level.residual_colours());
-    else
-      halo.exchange(level.u.data(), s % 2 == 0 ? Colours::Red : Colours::Black);
+    share(s);
     if (s > 0 && s % 2 == 0)
       level.relax_extras(Level::Order::Backward, /*from_zero=*/false);
   }

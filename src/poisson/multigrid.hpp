@@ -52,6 +52,7 @@ class Multigrid {
   void share_cells_near_cuts(std::size_t l);
   void cycle(std::size_t l, const PlaneWork& after);
   void coarsen_cross_terms(std::size_t l);
+  [[nodiscard]] bool waves_between_halos(std::size_t l) const;
   void smooth_from_zero(std::size_t l);
   void smooth(std::size_t l, const PlaneWork& after);
   void smooth_with_cross_terms(std::size_t l, const PlaneWork& after);

@@ -33,6 +33,8 @@ class RowExchange {
 
   /// Nothing to do between planes of one rank: stages of work may overlap from plane to plane.
   [[nodiscard]] bool within_planes() const { return !any_rank_ && !wraps_[2]; }
+  /// Only planes come from beyond, no rows inside them.
+  [[nodiscard]] bool of_planes() const { return neighbourhood_ == nullptr || !neighbourhood_->split[1]; }
   /// Periodic seams inside plane k: along rows, and along j where one rank holds the whole axis, edges included.
   void close_plane(float* values, int k, Colours colours) const;
   /// The seams across planes and what other ranks hold.  Collective.

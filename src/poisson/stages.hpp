@@ -47,4 +47,26 @@ void run_stages(int begin, int end, int stages, int threads, Work work)
   }
 }
 
+/// The same where stage s also reads, beyond both ends, what share(s - 1) brings there from the stage before: from
+/// other ranks, or from the opposite end.  The wave passes over what needs nothing from beyond; then the wedges that
+/// are left at the ends, stage by stage.  On one thread.
+template <class Work, class Share>
+void run_stages_between_halos(int begin, int end, int stages, Work work, Share share)
+{
+  const bool room = end - begin >= 2 * stages;
+  for (int front = begin; room && front < end; ++front)
+    for (int s = 0; s < stages; ++s)
+      if (const int k = front - s; k >= begin + s && k < end - s)
+        work(s, k);
+  for (int s = 0; s < stages; ++s) {
+    const int low = room ? begin + s : end;
+    const int high = room ? end - s : end;
+    for (int k = begin; k < low; ++k)
+      work(s, k);
+    for (int k = high; k < end; ++k)
+      work(s, k);
+    share(s);
+  }
+}
+
 }  // namespace luff::poisson

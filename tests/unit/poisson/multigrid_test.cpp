@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "poisson/multigrid.hpp"
 
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "poisson/conjugate_gradients.hpp"
 
 namespace luff::poisson {
 namespace {
@@ -230,6 +233,33 @@ TEST(Multigrid, IsASymmetricOperator)
     const std::vector<double> My = apply(y);
     EXPECT_NEAR(dot(Mx, y), dot(x, My), 2e-6 * std::sqrt(dot(Mx, Mx) * dot(y, y)));
     EXPECT_GT(dot(Mx, x), 0.0);
+  }
+}
+
+// A step that fails is repeated with half its length, by the same solver.
+TEST(ConjugateGradients, KeepNothingOfASolveThatMetNoNumber)
+{
+  for (const Problem& problem : problems()) {
+    const Box box = problem.box();
+    Neighbourhood alone;
+    alone.comm = MPI_COMM_SELF;
+    Multigrid multigrid(box, {{0, 0, 0}, box.cells()}, alone);
+    multigrid.set_blocked(problem.blocked());
+    Level& level = multigrid.finest();
+    ConjugateGradients solver(multigrid, nullptr, MPI_COMM_SELF);
+    const auto solve = [&](float disturbance) {
+      float sign = 1.0f;
+      for_unknowns(level, [&](std::ptrdiff_t q, int, Unknown) { level.f[q] = (sign = -sign); });
+      level.f[level.layout().index(0, 0, 0)] += disturbance;
+      const auto result = solver.solve(1e-3, 3);
+      std::vector<float> solution;
+      for_unknowns(level, [&](std::ptrdiff_t q, int, Unknown) { solution.push_back(solver.solution()[q]); });
+      return std::pair(result.finite, solution);
+    };
+    const auto before = solve(0.0f);
+    EXPECT_TRUE(before.first);
+    EXPECT_FALSE(solve(std::numeric_limits<float>::quiet_NaN()).first);
+    EXPECT_EQ(solve(0.0f), before);
   }
 }
 
