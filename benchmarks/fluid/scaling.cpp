@@ -43,8 +43,15 @@ double cpu_seconds()
 struct Traffic {
   double messages = 0.0;
   double bytes = 0.0;
-  double reductions = 0.0;  ///< collective calls
+  double reductions = 0.0;  ///< collective calls of a few numbers
+  double gatherings = 0.0;  ///< sums over ranks of the first level that all of them hold: one per multigrid cycle
+  double gathered = 0.0;    ///< bytes of those
   double seconds = 0.0;     ///< CPU time inside MPI
+
+  [[nodiscard]] Traffic per(int n) const
+  {
+    return {messages / n, bytes / n, reductions / n, gatherings / n, gathered / n, seconds / n};
+  }
 };
 Traffic traffic;
 
@@ -109,8 +116,14 @@ int MPI_Allreduce(const void* data, void* result, int count, MPI_Datatype type, 
   const luff::test::InMpi timer;
   int ranks = 1;
   MPI_Comm_size(comm, &ranks);
-  if (ranks > 1)
+  const double bytes = luff::test::bytes_of(count, type);
+  constexpr double few = 1024;
+  if (ranks > 1 && bytes > few) {
+    luff::test::traffic.gatherings += 1.0;
+    luff::test::traffic.gathered += bytes;
+  } else if (ranks > 1) {
     luff::test::traffic.reductions += 1.0;
+  }
   return PMPI_Allreduce(data, result, count, type, op, comm);
 }
 
@@ -165,9 +178,7 @@ Cost cost_of(TestFlow& flow, double dt)
   march(steps);
   const double seconds = cpu_seconds() - before;
   const double scale = 1e6 / (static_cast<double>(flow.grid.owned().volume()) * steps);
-  return {scale * seconds,
-          scale * (seconds - traffic.seconds),
-          {traffic.messages / steps, traffic.bytes / steps, traffic.reductions / steps, traffic.seconds / steps}};
+  return {scale * seconds, scale * (seconds - traffic.seconds), traffic.per(steps)};
 }
 
 Cost step_cubes(MPI_Comm comm, int n, int cubes)
@@ -216,8 +227,9 @@ void print(const char* name, const Cost& cost, const Cost& alone)
   std::printf("%-14s %.3f us per cell and step, %5.1f %% of alone; outside MPI %.3f, %5.1f %%", name, cost.all,
               100.0 * alone.all / cost.all, cost.outside_mpi, 100.0 * alone.outside_mpi / cost.outside_mpi);
   if (cost.per_step.messages > 0.0)
-    std::printf("; %.0f messages, %.0f kB, %.0f reductions per step and rank", cost.per_step.messages,
-                1e-3 * cost.per_step.bytes, cost.per_step.reductions);
+    std::printf("; %.1f messages, %.1f kB, %.2f reductions, %.2f gatherings with %.1f kB per step and rank",
+                cost.per_step.messages, 1e-3 * cost.per_step.bytes, cost.per_step.reductions, cost.per_step.gatherings,
+                1e-3 * cost.per_step.gathered);
   std::printf("\n");
 }
 
