@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the cylinder in a stream and compares drag, lift, frequency and wake length with published figures.
 
-Usage: validation/cylinder/compare.py [--out DIR] [--re RE ...] [--set KEY=VALUE ...]
+Usage: validation/cylinder/compare.py [--out DIR] [--re RE ...] [--spacing H] [--set KEY=VALUE ...]
 
-Runs cases/cylinder/case.toml with other viscosities into DIR/re<RE> (default validation/cylinder/results) unless it is there
-already, prints a table, and writes DIR/cylinder.png.
+Runs cases/cylinder/case.toml with other viscosities and spacings into DIR/re<RE>-<H> (default validation/cylinder/results) unless
+it is there already, prints a table, and writes DIR/cylinder.png. With the spacing all cells get finer, in the same proportion.
 """
 import argparse
 import csv
@@ -32,10 +32,19 @@ def references(re):
     return [row for row in rows if float(row["Re"]) == re]
 
 
-def run(re, out, settings):
+def finer(spacing):
+    """The case's grid, time step and surface with other cells in the section."""
+    factor = 0.04 / spacing
+    return [f"grid.{axis}.refine.spacing={spacing}" for axis in "xy"] + [
+        f"grid.x.cells={round(186 * factor)}", f"grid.y.cells={round(130 * factor)}", f"time.step={0.5 * spacing}",
+        f"body.cylinder.mesh.divisions=[{round(96 * factor)}, 1]"]
+
+
+def run(re, spacing, out, settings):
     if (out / "summary.json").exists():
         return
-    changes = [f"fluid.viscosity={1 / re}", 'pressure.tolerance="fast"'] + (["time.end=50"] if re < 47 else []) + settings
+    changes = [f"fluid.viscosity={1 / re}", 'pressure.tolerance="fast"'] + finer(spacing)
+    changes += (["time.end=80"] if re < 47 else []) + settings
     command = [root / "luff", "run", root / "cases" / "cylinder" / "case.toml", "--out", out]
     subprocess.run(command + [word for change in changes for word in ("--set", change)], check=True)
 
@@ -89,13 +98,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, default=here / "results")
     parser.add_argument("--re", type=float, nargs="+", default=[40, 100, 200])
+    parser.add_argument("--spacing", type=float, default=0.04, help="of the cells around the cylinder, in its diameter")
     parser.add_argument("--set", dest="settings", action="append", default=[])
     arguments = parser.parse_args()
     figure, axes = plt.subplots(len(arguments.re), 1, figsize=(8, 3 * len(arguments.re)), squeeze=False)
     print("Re | quantity | luff | published | from")
     for axis, re in zip(axes[:, 0], arguments.re):
-        out = arguments.out / f"re{re:g}"
-        run(re, out, arguments.settings)
+        out = arguments.out / f"re{re:g}-{arguments.spacing:g}"
+        run(re, arguments.spacing, out, arguments.settings)
         values, (t, drag, lift) = measured(re, out)
         for key, value in values.items():
             rows = [row for row in references(re) if row[key]]
