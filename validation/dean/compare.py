@@ -104,7 +104,7 @@ def run(dean, cells, along, out):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cells", type=int, default=24, help="from wall to wall")
+    parser.add_argument("--cells", type=int, default=36, help="from wall to wall")
     parser.add_argument("--along", type=int, default=24, help="cells along the whole turn")
     parser.add_argument("--deans", type=int, nargs="*", default=[50, 100, 200])
     parser.add_argument("--out", type=Path, default=here / "results")
