@@ -59,7 +59,8 @@ def references(case):
     """Profiles (u along y at x = 1/2, v along x at y = 1/2) by source."""
     if case == "plane":
         return {
-            "Botella & Peyret 1998": {"u": table("botella_peyret1998_Re1000_u", "y", "u")},
+            "Botella & Peyret 1998": {"u": table("botella_peyret1998_Re1000_u", "y", "u"),
+                                      "v": table("botella_peyret1998_Re1000_v", "x", "v")},
             "Ghia et al. 1982": {"u": table("ghia1982_u", "y", "u_Re1000"), "v": table("ghia1982_v", "x", "v_Re1000")},
         }
     v = [(x, -u) for x, u in table("albensoeder2005_u_on_y", "X_lidtop", "u_cube")]
