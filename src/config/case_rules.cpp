@@ -61,6 +61,21 @@ void state_material_rule(Schema& s, const Case& options)
   }
 }
 
+void state_skin_rule(Schema& s, const Case& options)
+{
+  for (std::size_t i = 0; i < options.shells.size(); ++i) {
+    if (options.shells[i].wetted == WettedSurface::Middle)
+      continue;
+    s.rule(options.fluid.has_value(), fmt::format("shell.{}.wetted", i), "must be left out without a [fluid]");
+    for (std::size_t n = 0; n < options.shells[i].supports.size(); ++n) {
+      const SupportOptions& support = options.shells[i].supports[n];
+      s.rule(support.type != SupportType::Symmetry || support.where.plane.has_value(),
+             fmt::format("shell.{}.support.{}.where", i, n),
+             "must be a `plane` for a symmetry of a shell with `wetted = \"faces\"`");
+    }
+  }
+}
+
 /// Of a curvilinear grid it turns out when the grid is made.
 bool may_be_inside(const Vec3& point, const GridOptions& grid)
 {
@@ -172,6 +187,7 @@ void state_case_rules(Schema& s, const Case& options)
          "must be left out unless `structure.analysis = \"dynamic\"`");
   state_names_rule(s, options);
   state_periodic_rule(s, options);
+  state_skin_rule(s, options);
   state_material_rule(s, options);
   state_body_rules(s, options);
   state_probe_rules(s, options);

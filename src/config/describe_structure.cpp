@@ -55,6 +55,10 @@ void describe(Schema& s, ShellOptions& shell)
   s.key("membrane", shell.membrane,
         {.doc = "How the strain in the surface is found: `cst`, constant in a triangle, or `smoothed`, averaged over "
                 "pairs of triangles, which is far better where the surface bends in its own plane."});
+  s.key(
+      "wetted", shell.wetted,
+      {.doc = "What the flow sees: `middle`, the middle surface, a sheet without thickness; or `faces`, two faces half "
+              "the thickness off it and a rim around them, for shells thicker than two cells or so."});
   s.table("damping", shell.damping, {.doc = "Rayleigh damping."});
   s.key("gravity", shell.gravity, {.doc = "Acceleration of gravity acting on the shell.", .unit = "m/s^2"});
   s.list("support", shell.supports, {.doc = "Vertices that are held; edges without support are free."});

@@ -274,6 +274,9 @@ enum class MembraneElement { Cst, Smoothed };
 
 enum class MassMatrix { Consistent, Lumped };
 
+/// What of a shell the flow sees.
+enum class WettedSurface { Middle, Faces };
+
 /// [[shell]]
 struct ShellOptions {
   std::string name;
@@ -285,6 +288,7 @@ struct ShellOptions {
   BendingElement bending = BendingElement::Qavg;
   MassMatrix mass = MassMatrix::Consistent;
   MembraneElement membrane = MembraneElement::Cst;
+  WettedSurface wetted = WettedSurface::Middle;
   DampingOptions damping;
   Vec3 gravity = Vec3::Zero();
   std::vector<SupportOptions> supports;

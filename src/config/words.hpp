@@ -88,6 +88,11 @@ inline Words<BendingElement> words(BendingElement)
   return {{{BendingElement::Qavg, "qavg"}, {BendingElement::Patch4, "patch4"}, {BendingElement::Hinge, "hinge"}}};
 }
 
+inline Words<WettedSurface> words(WettedSurface)
+{
+  return {{{WettedSurface::Middle, "middle"}, {WettedSurface::Faces, "faces"}}};
+}
+
 inline Words<MembraneElement> words(MembraneElement)
 {
   return {{{MembraneElement::Cst, "cst"}, {MembraneElement::Smoothed, "smoothed"}}};

@@ -208,6 +208,33 @@ std::vector<RigidSheet> build_rigid_sheets(const config::Case& options)
   return rigid;
 }
 
+/// Where vertices stay on planes of symmetry.
+std::vector<HeldNormal> held_normals(const config::ShellOptions& options, const surface::MarkedMesh& marked)
+{
+  std::vector<HeldNormal> held;
+  for (std::size_t n = 0; n < options.supports.size(); ++n) {
+    const config::SupportOptions& support = options.supports[n];
+    if (support.type != config::SupportType::Symmetry || !support.where.plane)
+      continue;
+    for (const int v : surface::select_vertices(marked.mesh, where_of(support.where), options.name, marked.marks.sets))
+      held.push_back({.vertex = v, .plane = static_cast<int>(n), .normal = support.where.plane->normal.normalized()});
+  }
+  return held;
+}
+
+std::vector<std::optional<Skin>> build_skins(const std::vector<config::ShellOptions>& options,
+                                             const shell::Shell& shell, const std::vector<surface::Marks>& marks)
+{
+  std::vector<std::optional<Skin>> skins(options.size());
+  for (std::size_t n = 0; n < options.size(); ++n) {
+    if (options[n].wetted != config::WettedSurface::Faces)
+      continue;
+    const surface::MarkedMesh middle{shell.reference_of(shell.pieces()[n]), marks[n]};
+    skins[n].emplace(middle, options[n].thickness, held_normals(options[n], middle));
+  }
+  return skins;
+}
+
 Shells build_shells(const config::Case& options, const std::vector<RigidSheet>& rigid)
 {
   Shells shells;
@@ -215,6 +242,7 @@ Shells build_shells(const config::Case& options, const std::vector<RigidSheet>& 
     return shells;
   LoadedShell built = build_shell(options.shells);
   shells.shell = std::move(built.shell);
+  shells.skins = build_skins(options.shells, *shells.shell, built.marks);
   shells.marks = std::move(built.marks);
   shell::DynamicsOptions dynamics;
   dynamics.scheme = scheme_of(options.structure, options.fluid.has_value());

@@ -97,6 +97,8 @@ std::vector<ForceAudit::Instant> ForceAudit::instants(const Structure& structure
     for (int v = sheet.first_vertex; v < sheet.first_vertex + sheet.vertices; ++v) {
       now.force += structure.loads().force(v);
       now.power += structure.loads().force(v).dot(u[v]);
+      now.inner_force += structure.inner_loads()[v];
+      now.inner_power += structure.inner_loads()[v].dot(u[v]);
     }
     if (is_closed(structure, sheet))
       now.displaced_momentum = displaced_momentum(sheet, x, u);
@@ -144,13 +146,15 @@ std::vector<AuditedForce> ForceAudit::audit(const std::vector<Instant>& now, con
   return all;
 }
 
-/// What a surface adds: the force on it, and the momentum and the body force of the fluid that it displaces.
+/// What a surface adds: the force on it, the momentum and the body force of the fluid that it displaces, and what the
+/// fluid inside of a skin takes.
 AuditedForce ForceAudit::share(std::size_t surface, const Instant& now, const TimeStep& step,
                                const fluid::FlowOptions& flow, const Structure& structure) const
 {
   const Instant& before = before_[surface];
   AuditedForce own{.by_traction = 0.5 * (before.force + now.force),
-                   .by_momentum = flow.density * (now.displaced_momentum - before.displaced_momentum) / step.dt};
+                   .by_momentum = flow.density * (now.displaced_momentum - before.displaced_momentum) / step.dt -
+                                  0.5 * (before.inner_force + now.inner_force)};
   if (displaced_volume_[surface] == 0.0)
     return own;
   const double t = 0.5 * (step.t_old + step.t_new);
@@ -181,7 +185,7 @@ double ForceAudit::power() const
 {
   double sum = 0.0;
   for (const Instant& instant : before_)
-    sum += instant.power;
+    sum += instant.power + instant.inner_power;
   return sum;
 }
 
@@ -199,6 +203,8 @@ std::vector<double> ForceAudit::numbers() const
     add(instant.force);
     add(instant.displaced_momentum);
     all.push_back(instant.power);
+    add(instant.inner_force);
+    all.push_back(instant.inner_power);
   }
   return all;
 }
@@ -225,6 +231,8 @@ void ForceAudit::restore(const std::vector<double>& numbers)
     instant.force = take_vector();
     instant.displaced_momentum = take_vector();
     instant.power = take();
+    instant.inner_force = take_vector();
+    instant.inner_power = take();
   }
 }
 

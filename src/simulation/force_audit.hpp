@@ -61,6 +61,8 @@ class ForceAudit {
     Vec3 force = Vec3::Zero();
     Vec3 displaced_momentum = Vec3::Zero();  ///< int u_b dV of a closed body [L^4/T]
     double power = 0.0;                      ///< of the flow on a shell
+    Vec3 inner_force = Vec3::Zero();         ///< of the fluid inside of a skin on it
+    double inner_power = 0.0;
   };
   struct Sums {
     Vec3 by_traction = Vec3::Zero();

@@ -115,6 +115,12 @@ void describe_flow(const config::Case& options, const Structure& structure, cons
                                   speed * length / viscosity, speed, length, viscosity));
     lines.push_back(fmt::format("cells per length L/h = {:.1f}", length / h.minCoeff()));
   }
+  for (const config::ShellOptions& shell : options.shells)
+    if (shell.wetted == config::WettedSurface::Faces && shell.thickness < 2.0 * h.minCoeff())
+      lines.push_back(
+          fmt::format("WARNING: shell '{}': its faces are {:.2g} cells apart; use two or more, or "
+                      "`wetted = \"middle\"`",
+                      shell.name, shell.thickness / h.minCoeff()));
   const double dt = options.time.step;
   const fluid::StepLimits limits = fluid::step_limits(time_scheme(options.time.scheme));
   lines.push_back(

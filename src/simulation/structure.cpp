@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,10 +11,15 @@ namespace luff::simulation {
 
 namespace {
 
-void append(std::vector<Vec3>& to, const Eigen::VectorXd& values)
+void append(std::vector<Vec3>& to, const std::vector<Vec3>& values)
 {
-  for (Eigen::Index n = 0; n < values.size(); n += 3)
-    to.emplace_back(values.segment<3>(n));
+  to.insert(to.end(), values.begin(), values.end());
+}
+
+/// Vertices of one piece of a shell.
+std::span<const Vec3> of_piece(const std::vector<Vec3>& all, const shell::PieceRange& piece)
+{
+  return std::span(all).subspan(piece.first_vertex, piece.n_vertices);
 }
 
 }  // namespace
@@ -25,7 +31,10 @@ Structure::Structure(Shells shells, std::vector<RigidSheet> rigid)
   if (shells_.shell) {
     shells_.marks.resize(shells_.shell->pieces().size());
     for (const shell::PieceRange& piece : shells_.shell->pieces()) {
-      add_sheet(piece.name, true, part, shells_.shell->reference_of(piece), shells_.marks[part]);
+      if (const Skin* skin = skin_of(part))
+        add_sheet(piece.name, true, part, skin->reference(), skin->marks());
+      else
+        add_sheet(piece.name, true, part, shells_.shell->reference_of(piece), shells_.marks[part]);
       ++part;
     }
     length_ = shells_.shell->size();
@@ -42,6 +51,7 @@ Structure::Structure(Shells shells, std::vector<RigidSheet> rigid)
   }
   const std::vector<Vec3> none(vertices_, Vec3::Zero());
   loads_ = {none, none};
+  inner_loads_ = none;
 }
 
 void Structure::add_sheet(const std::string& name, bool deforms, int part, const surface::TriangleMesh& reference,
@@ -128,10 +138,10 @@ immersed::SheetMotion Structure::motion(const Eigen::VectorXd& d, const TimeStep
   motion.triangles = triangles_;
   if (shells_.dynamics) {
     const Eigen::VectorXd x = d.head(shell_unknowns());
-    append(motion.position, x);
+    append(motion.position, wetted_positions(x));
     const shell::Kinematics k = shells_.dynamics->kinematics(x, step.dt);
-    append(motion.velocity, k.v);
-    append(motion.acceleration, k.a);
+    append(motion.velocity, wetted_rates(x, k.v));
+    append(motion.acceleration, wetted_rates(x, k.a));
   }
   int n_free = 0;
   for (const RigidSheet& sheet : rigid_) {
@@ -154,13 +164,62 @@ std::vector<Vec3> Structure::velocity(const Eigen::VectorXd& d, const TimeStep& 
   return motion(d, step).velocity;
 }
 
-/// Forces of the flow on the shells, x y z of each vertex.
-Eigen::VectorXd Structure::forces_on_shells() const
+const Skin* Structure::skin_of(std::size_t piece) const
 {
-  Eigen::VectorXd force(3 * shells_.shell->n_vertices());
-  for (int v = 0; v < shells_.shell->n_vertices(); ++v)
-    force.segment<3>(3 * v) = loads_.force(v);
-  return force;
+  return piece < shells_.skins.size() && shells_.skins[piece] ? &*shells_.skins[piece] : nullptr;
+}
+
+std::vector<Vec3> Structure::wetted_positions(const Eigen::VectorXd& x) const
+{
+  const std::vector<Vec3> middle = surface::points(x);
+  std::vector<Vec3> wetted;
+  for (std::size_t n = 0; n < shells_.shell->pieces().size(); ++n) {
+    const std::span<const Vec3> own = of_piece(middle, shells_.shell->pieces()[n]);
+    const Skin* skin = skin_of(n);
+    append(wetted, skin != nullptr ? skin->positions(own) : std::vector<Vec3>(own.begin(), own.end()));
+  }
+  return wetted;
+}
+
+std::vector<Vec3> Structure::wetted_rates(const Eigen::VectorXd& x, const Eigen::VectorXd& v) const
+{
+  const std::vector<Vec3> middle = surface::points(x);
+  const std::vector<Vec3> rates = surface::points(v);
+  std::vector<Vec3> wetted;
+  for (std::size_t n = 0; n < shells_.shell->pieces().size(); ++n) {
+    const shell::PieceRange& piece = shells_.shell->pieces()[n];
+    const std::span<const Vec3> own = of_piece(rates, piece);
+    const Skin* skin = skin_of(n);
+    append(wetted,
+           skin != nullptr ? skin->rates(of_piece(middle, piece), own) : std::vector<Vec3>(own.begin(), own.end()));
+  }
+  return wetted;
+}
+
+/// The fluid inside of a skin stands where the material is: what it does is put aside.
+void Structure::take_loads(const immersed::SheetLoads& loads)
+{
+  loads_ = loads;
+  for (const SheetRange& sheet : sheets_)
+    if (sheet.deforms && skin_of(sheet.part) != nullptr)
+      for (int v = sheet.first_vertex; v < sheet.first_vertex + sheet.vertices; ++v)
+        inner_loads_[v] = std::exchange(loads_.minus[v], Vec3::Zero());
+}
+
+Eigen::VectorXd Structure::forces_on_shells(const Eigen::VectorXd& x) const
+{
+  const std::vector<Vec3> middle = surface::points(x);
+  std::vector<Vec3> force;
+  for (const SheetRange& sheet : sheets_) {
+    if (!sheet.deforms)
+      continue;
+    std::vector<Vec3> own;
+    for (int v = sheet.first_vertex; v < sheet.first_vertex + sheet.vertices; ++v)
+      own.push_back(loads_.force(v));
+    const Skin* skin = skin_of(sheet.part);
+    append(force, skin != nullptr ? skin->forces(of_piece(middle, shells_.shell->pieces()[sheet.part]), own) : own);
+  }
+  return surface::interleaved(force);
 }
 
 /// Of the flow on a free body, about its centre.
@@ -177,11 +236,11 @@ Wrench Structure::wrench(int first_vertex, const RigidSheet& sheet, const RigidS
 
 Eigen::VectorXd Structure::solve(const TimeStep& step, const immersed::SheetLoads& loads, const Eigen::VectorXd& d)
 {
-  loads_ = loads;
+  take_loads(loads);
   Eigen::VectorXd image = d;
   if (shells_.dynamics) {
-    const shell::Dynamics::Trial trial =
-        shells_.dynamics->solve(step.t_new, step.dt, forces_on_shells(), d.head(shell_unknowns()));
+    const Eigen::VectorXd x = d.head(shell_unknowns());
+    const shell::Dynamics::Trial trial = shells_.dynamics->solve(step.t_new, step.dt, forces_on_shells(x), x);
     newton_iterations_ += trial.report.iterations;
     image.head(shell_unknowns()) = trial.positions;
   }
@@ -194,8 +253,10 @@ Eigen::VectorXd Structure::solve(const TimeStep& step, const immersed::SheetLoad
 
 void Structure::accept(const TimeStep& step, const Eigen::VectorXd& d)
 {
-  if (shells_.dynamics)
-    sharp_folds_ += shells_.dynamics->accept(d.head(shell_unknowns()), step.t_new, step.dt, forces_on_shells()).n_sharp;
+  if (shells_.dynamics) {
+    const Eigen::VectorXd x = d.head(shell_unknowns());
+    sharp_folds_ += shells_.dynamics->accept(x, step.t_new, step.dt, forces_on_shells(x)).n_sharp;
+  }
   for_each_free(rigid_, first_rigid_vertex_, [&](RigidSheet& sheet, int first_vertex, int n) {
     const Vec6 own = body_part(d, n);
     sheet.free->accept(own, wrench(first_vertex, sheet, sheet.free->state(own, step.dt)), step.dt);
@@ -233,7 +294,7 @@ std::vector<Vec3> Structure::accepted_positions(double t) const
 {
   std::vector<Vec3> positions;
   if (shells_.dynamics)
-    append(positions, shells_.dynamics->accepted().x);
+    append(positions, wetted_positions(shells_.dynamics->accepted().x));
   for (const RigidSheet& sheet : rigid_)
     for (const Vec3& x_0 : sheet.mesh.vertices) {
       if (sheet.free)
@@ -248,7 +309,7 @@ std::vector<Vec3> Structure::accepted_velocities(double t, double dt) const
 {
   std::vector<Vec3> velocities;
   if (shells_.dynamics)
-    append(velocities, shells_.dynamics->accepted().v);
+    append(velocities, wetted_rates(shells_.dynamics->accepted().x, shells_.dynamics->accepted().v));
   for (const RigidSheet& sheet : rigid_)
     for (const Vec3& x_0 : sheet.mesh.vertices) {
       if (sheet.free)

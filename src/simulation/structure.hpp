@@ -18,6 +18,7 @@
 #include "immersed/loads.hpp"
 #include "shell/dynamics.hpp"
 #include "simulation/rigid_body.hpp"
+#include "simulation/skin.hpp"
 #include "surface/marked_mesh.hpp"
 
 namespace luff::simulation {
@@ -26,7 +27,8 @@ namespace luff::simulation {
 struct Shells {
   std::unique_ptr<shell::Shell> shell;
   std::unique_ptr<shell::Dynamics> dynamics;
-  std::vector<surface::Marks> marks = {};  ///< of each piece's mesh; may be left out
+  std::vector<surface::Marks> marks = {};       ///< of each piece's mesh; may be left out
+  std::vector<std::optional<Skin>> skins = {};  ///< of pieces whose faces the flow sees; may be left out
 };
 
 /// A rigid thin sheet or closed body, whose place is given for all times, or which the flow moves.
@@ -49,12 +51,13 @@ struct BodyMotion {
   Vec3 spin = Vec3::Zero();
 };
 
-/// Part of the vertices and triangles of all sheets together.
+/// Part of the vertices and triangles of all sheets together.  The vertices of a shell are its own, or those of its
+/// skin.
 struct SheetRange {
   std::string name;
   bool deforms = false;
   int part = 0;                     ///< index among the shells or the rigid sheets
-  surface::TriangleMesh reference;  ///< of a shell; at t = 0 of a rigid sheet
+  surface::TriangleMesh reference;  ///< of a shell, or its skin; at t = 0 of a rigid sheet
   surface::Marks marks;             ///< of that mesh
   int first_vertex = 0;
   int vertices = 0;
@@ -88,8 +91,10 @@ class Structure {
   [[nodiscard]] const Shells& shells() const { return shells_; }
   [[nodiscard]] int vertices() const { return vertices_; }
   [[nodiscard]] const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
-  /// What the flow did to each vertex of all sheets in the last solve().
+  /// What the flow did to each vertex of all sheets in the last solve(). Skins feel their outside only.
   [[nodiscard]] const immersed::SheetLoads& loads() const { return loads_; }
+  /// What the fluid inside of skins did to their vertices, which nothing answers; zero at other vertices.
+  [[nodiscard]] const std::vector<Vec3>& inner_loads() const { return inner_loads_; }
   /// Positions of all vertices at time t in the accepted state.
   [[nodiscard]] std::vector<Vec3> accepted_positions(double t) const;
   [[nodiscard]] std::vector<Vec3> accepted_velocities(double t, double dt) const;
@@ -125,7 +130,14 @@ class Structure {
  private:
   void add_sheet(const std::string& name, bool deforms, int part, const surface::TriangleMesh& reference,
                  const surface::Marks& marks);
-  [[nodiscard]] Eigen::VectorXd forces_on_shells() const;
+  /// The skin of a piece, or null.
+  [[nodiscard]] const Skin* skin_of(std::size_t piece) const;
+  void take_loads(const immersed::SheetLoads& loads);
+  /// Of the flow on the shells at x, x y z of each vertex.
+  [[nodiscard]] Eigen::VectorXd forces_on_shells(const Eigen::VectorXd& x) const;
+  /// Positions of the shells' vertices in the flow with the shells at x.
+  [[nodiscard]] std::vector<Vec3> wetted_positions(const Eigen::VectorXd& x) const;
+  [[nodiscard]] std::vector<Vec3> wetted_rates(const Eigen::VectorXd& x, const Eigen::VectorXd& v) const;
   [[nodiscard]] Eigen::Index shell_unknowns() const;
   /// The part of d that belongs to the n-th free body.
   [[nodiscard]] Vec6 body_part(const Eigen::VectorXd& d, int n) const;
@@ -143,6 +155,7 @@ class Structure {
   int n_free_ = 0;
   double length_ = 1.0;
   immersed::SheetLoads loads_;
+  std::vector<Vec3> inner_loads_;
   long newton_iterations_ = 0;
   long sharp_folds_ = 0;
 };

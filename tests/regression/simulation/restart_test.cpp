@@ -217,6 +217,14 @@ TEST_F(Restart, GivesTheSameBitsOfAClosedBodyThatTheFlowMoves)
       0);
 }
 
+TEST_F(Restart, GivesTheSameBitsOfAShellWithTwoFaces)
+{
+  prepare(thick_flag());
+  const Outcome run = go_on();
+  ASSERT_EQ(run.status, 0) << run.said;
+  expect_same_files(whole, parts);
+}
+
 TEST_F(Restart, GivesTheSameBitsWithAitkensFactor)
 {
   prepare(changed(small_flag, "[output]\n", "[coupling]\nacceleration = \"aitken\"\n[output]\n"));

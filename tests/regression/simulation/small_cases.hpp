@@ -216,6 +216,12 @@ inline std::string changed(std::string text, const std::string& from, const std:
   return text.replace(position, from.size(), to);
 }
 
+/// The small flag, two and a half cells thick: the flow sees its faces.
+inline std::string thick_flag()
+{
+  return changed(small_flag, "thickness = 0.01", "thickness = 0.3\nwetted = \"faces\"");
+}
+
 /// A ball lighter than the fluid in a stream, free but for a spring, five steps.
 inline const std::string small_ball = R"toml(title = "Small ball"
 [time]

@@ -289,6 +289,14 @@ const BadInput rules[] = {
      "\"fung\", c = 10, a11 = 4, a22 = 1, a12 = 3, a33 = 1, fibre = { direction = [1, 0, 0] }",
      "case.toml:25: shell.material.a12 = 3 must be small enough, with `a13` and `a23`, for a positive definite matrix "
      "(a12^2 < a11 a22), or some strain would cost no energy"},
+    {"ASymmetryOfAShellWithFacesIsNoPlane",
+     "density = 100.0\nmaterial = { model = \"saint-venant-kirchhoff\", young = 1e6, poisson = 0.4 "
+     "}\n[[shell.support]]\nwhere "
+     "= { edge = [[0, 0, -0.5], [0, 0, 0.5]] }\ntype = \"clamped\"",
+     "density = 100.0\nwetted = \"faces\"\nmaterial = { model = \"saint-venant-kirchhoff\", young = 1e6, poisson = 0.4 "
+     "}\n"
+     "[[shell.support]]\nwhere = { edge = [[0, 0, -0.5], [0, 0, 0.5]] }\ntype = \"symmetry\"",
+     "case.toml:28: shell.0.support.0.where must be a `plane` for a symmetry of a shell with `wetted = \"faces\"`"},
     {"AWordThatDecidesIsMisspelt", "type = \"prescribed\"", "type = \"prescibed\"",
      "case.toml:35: body.motion.type = \"prescibed\" must be \"fixed\", \"prescribed\" or \"free\" (did "
      "you mean \"prescribed\"?)"},
