@@ -19,8 +19,16 @@ namespace {
 
 /// Keys, and tables (with a dot at their end), that say how long and how closely a run is computed and what is written
 /// of it: not what it is.
-constexpr std::array free_to_change{"title",    "time.end",  "time.step",        "time.cfl",
-                                    "output.",  "pressure.", "structure.solver", "structure.fold_limit",
+constexpr std::array free_to_change{"title",
+                                    "time.end",
+                                    "time.step",
+                                    "time.cfl",
+                                    "output.",
+                                    "pressure.",
+                                    "structure.solver",
+                                    "structure.fold_limit",
+                                    "structure.stabilisation",
+                                    "structure.max_steps",
                                     "coupling."};
 
 bool may_change(const std::string& key)

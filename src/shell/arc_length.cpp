@@ -38,7 +38,11 @@ class ArcLengthPath {
         product_(shell)
   {
     now_.positions = shell.reference_positions();
+    if (options.statics.from)
+      go_on(*options.statics.from);
   }
+
+  const StaticStep& now() const { return now_; }
 
   bool at_full_load() const { return now_.load_factor == 1; }
 
@@ -57,6 +61,7 @@ class ArcLengthPath {
             when(), problem_.shell().name(), length_, reason_);
     }
     now_.folds = check_folds(problem_.shell(), now_.positions, options_.statics.fold_limit, when());
+    now_.control = {.length = length_, .first_length = first_length_, .last_move = previous_};
     return now_;
   }
 
@@ -64,6 +69,14 @@ class ArcLengthPath {
   /// A step that takes more iterations is shortened, one that takes fewer is lengthened.
   static constexpr int wanted_iterations = 5;
   static constexpr double longest = 8;  ///< in lengths of the first step
+
+  void go_on(const PathPoint& from)
+  {
+    set_equilibrium(from, now_);
+    length_ = from.control.length;
+    first_length_ = from.control.first_length;
+    previous_ = from.control.last_move;
+  }
 
   /// Displacement of the first of `steps` load steps, were the shell linear.
   double first_length()
@@ -180,8 +193,8 @@ StaticStep follow_arc_length(const Shell& shell, const std::vector<Load>& loads,
   check_static(shell, options.statics);
   check_supports_rest(shell, "arc-length");
   ArcLengthPath path(shell, loads, options);
-  StaticStep last;
-  for (int step = 1; step <= options.max_steps; ++step) {
+  StaticStep last = path.now();
+  for (int step = path.now().step + 1; step <= options.max_steps; ++step) {
     last = path.advance();
     if (on_step)
       on_step(last);

@@ -22,7 +22,11 @@ class DisplacementPath {
         length_(1.0 / options.steps, options.max_halvings)
   {
     now_.positions = shell.reference_positions();
+    if (options.from)
+      go_on(*options.from);
   }
+
+  const StaticStep& now() const { return now_; }
 
   /// The equilibrium at step / steps of the displacement.
   const StaticStep& reach(int step)
@@ -33,10 +37,18 @@ class DisplacementPath {
     while (part_ < mark)
       advance(length_.end(part_, mark));
     now_.folds = check_folds(problem_.shell(), now_.positions, options_.fold_limit, when(mark));
+    now_.control = {.length = length_.now(), .successes = length_.successes()};
     return now_;
   }
 
  private:
+  void go_on(const PathPoint& from)
+  {
+    set_equilibrium(from, now_);
+    length_.restore(from.control.length, from.control.successes);
+    part_ = static_cast<double>(now_.step) / options_.steps;
+  }
+
   /// To this part of the displacement, or nowhere with a shorter step for the next attempt.
   void advance(double part)
   {
@@ -143,8 +155,8 @@ StaticStep control_displacement(const Shell& shell, const std::vector<Load>& loa
   check_supports_rest(shell, "displacement-control");
   check_controllable(shell, controlled);
   DisplacementPath path(shell, loads, controlled, options);
-  StaticStep last;
-  for (int step = 1; step <= options.steps; ++step) {
+  StaticStep last = path.now();
+  for (int step = path.now().step + 1; step <= options.steps; ++step) {
     last = path.reach(step);
     if (on_step)
       on_step(last);

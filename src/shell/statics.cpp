@@ -50,7 +50,11 @@ class LoadPath {
     now_.positions = shell.reference_positions();
     if (options.contact)
       start_contact(*options.contact);
+    if (options.from)
+      go_on(*options.from);
   }
+
+  const StaticStep& now() const { return now_; }
 
   /// The equilibrium at load factor step / steps.
   const StaticStep& reach(int step)
@@ -61,12 +65,21 @@ class LoadPath {
     while (now_.load_factor < mark)
       advance(length_.end(now_.load_factor, mark));
     now_.folds = check_folds(problem_.shell(), now_.positions, options_.fold_limit, when(mark), options_.time, mark);
+    now_.control = {.length = length_.now(), .successes = length_.successes()};
     return now_;
   }
 
  private:
   /// A snap is found at a failed step; shorter ones would only place it more sharply.
   static constexpr int few_halvings = 3;
+
+  void go_on(const PathPoint& from)
+  {
+    set_equilibrium(from, now_);
+    length_.restore(from.control.length, from.control.successes);
+    if (contact_)
+      contact_->restore(now_.positions, now_.load_factor);
+  }
 
   /// To this load factor, or to none with a shorter step for the next attempt.
   void advance(double factor)
@@ -253,6 +266,18 @@ bool has_jumped(const Eigen::VectorXd& start, const Eigen::VectorXd& end, const 
   return (end - start).lpNorm<Eigen::Infinity>() > std::max(round_off, much_longer * tangent.lpNorm<Eigen::Infinity>());
 }
 
+PathPoint point_of(const StaticStep& step)
+{
+  return {.step = step.step, .load_factor = step.load_factor, .positions = step.positions, .control = step.control};
+}
+
+void set_equilibrium(const PathPoint& point, StaticStep& step)
+{
+  step.step = point.step;
+  step.load_factor = point.load_factor;
+  step.positions = point.positions;
+}
+
 void check_supports_rest(const Shell& shell, std::string_view analysis)
 {
   if (shell.supports().moves())
@@ -279,8 +304,8 @@ StaticStep solve_static(const Shell& shell, const std::vector<Load>& loads, cons
 {
   check_static(shell, options);
   LoadPath path(shell, loads, options);
-  StaticStep last;
-  for (int step = 1; step <= options.steps; ++step) {
+  StaticStep last = path.now();
+  for (int step = path.now().step + 1; step <= options.steps; ++step) {
     last = path.reach(step);
     if (on_step)
       on_step(last);

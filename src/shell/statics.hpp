@@ -22,6 +22,22 @@ enum class Stabilisation {
   Damping  ///< damped continuation to the next stable equilibrium, settle()
 };
 
+/// What the next step of a path depends on besides the equilibrium that it starts from.
+struct StepControl {
+  double length = 0;        ///< of the step: in the load factor, a part of the controlled displacement, or [L] of arc
+  int successes = 0;        ///< in a row at this length
+  double first_length = 0;  ///< of an arc-length path [L]
+  Eigen::VectorXd last_move = {};  ///< displacement of an arc-length path's last step, empty before
+};
+
+/// An equilibrium from which a path can go on with the same bits.
+struct PathPoint {
+  int step = 0;
+  double load_factor = 0;
+  Eigen::VectorXd positions;
+  StepControl control;
+};
+
 struct StaticOptions {
   int steps = 20;          ///< equal steps whose ends are reported, at least 1
   int max_halvings = 6;    ///< of a step that finds no equilibrium; shortened steps grow again
@@ -33,6 +49,8 @@ struct StaticOptions {
   /// Of solve_static alone. Every step then goes down the potential energy to a stable equilibrium, through snaps if
   /// need be. Bodies are where `body_positions` of the load factor says.
   std::optional<ContactOptions> contact{};
+  /// The path goes on from here, a step of the same analysis; absent: from the reference.
+  std::optional<PathPoint> from{};
 };
 
 /// What touches at an equilibrium.
@@ -47,6 +65,7 @@ struct StaticStep {
   int step = 0;
   double load_factor = 0;  ///< step/steps, multiplies every load, gravity and the supports' motion
   Eigen::VectorXd positions;
+  StepControl control = {};   ///< of the next step
   NewtonReport report;        ///< of the last Newton solve
   int iterations = 0;         ///< of Newton's method since the last reported step, failed attempts included
   int damped_iterations = 0;  ///< of settle() since the last reported step; more than zero: the shell snapped
@@ -59,6 +78,11 @@ struct StaticStep {
 /// tends to one as steps shrink, across a snap it grows without bound. Steps within the `round_off` [L] don't jump.
 bool has_jumped(const Eigen::VectorXd& start, const Eigen::VectorXd& end, const Eigen::VectorXd& tangent,
                 double round_off);
+
+/// Where the path can go on from.
+PathPoint point_of(const StaticStep& step);
+/// The step's number, load factor and positions are those of the point.
+void set_equilibrium(const PathPoint& point, StaticStep& step);
 
 using OnStaticStep = std::function<void(const StaticStep&)>;
 

@@ -14,6 +14,16 @@ class StepLength {
   {
   }
 
+  double now() const { return now_; }
+  /// Steps in a row that succeeded since the last change.
+  int successes() const { return successes_; }
+  /// As they were at some time.
+  void restore(double now, int successes)
+  {
+    now_ = now;
+    successes_ = successes;
+  }
+
   /// Where a step from here ends: at `mark`, or before it. What would leave a sliver goes all the way.
   double end(double from, double mark) const { return from + 1.01 * now_ >= mark ? mark : from + now_; }
 

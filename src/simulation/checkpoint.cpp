@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/checkpoint.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <string>
 
 #include "config/changes.hpp"
 #include "core/error.hpp"
-#include "output/checkpoint_file.hpp"
-#include "output/checkpoint_folder.hpp"
 #include "parallel/for_each.hpp"
 #include "simulation/statistics.hpp"
 #include "simulation/wall_surface.hpp"
-#include "surface/mesh.hpp"
 
 namespace luff::simulation {
 
@@ -158,13 +153,6 @@ void transfer_progress(File& file, P& progress)
   file.value("output", progress.marks);
 }
 
-/// What a run goes on with must be what it began with: the vertices of all surfaces at the start, and the grid.
-struct Shape {
-  std::string what;
-  std::string name;
-  std::vector<double> numbers;
-};
-
 /// Sums over cells of V, V x_d and V x_d^2: another grid of as many cells has others.  Collective.
 std::vector<double> moments_of(const grid::Grid& grid)
 {
@@ -186,10 +174,8 @@ std::vector<double> moments_of(const grid::Grid& grid)
 std::vector<Shape> shapes_of(Simulation& simulation)
 {
   std::vector<Shape> shapes;
-  for (const SheetRange& sheet : simulation.structure().sheets()) {
-    const Eigen::VectorXd x = surface::interleaved(sheet.reference.vertices);
-    shapes.push_back({"the mesh of '" + sheet.name + "'", "mesh/" + sheet.name, {x.begin(), x.end()}});
-  }
+  for (const SheetRange& sheet : simulation.structure().sheets())
+    shapes.push_back(shape_of_mesh(sheet.name, sheet.reference));
   if (const auto* flow = simulation.surroundings().flow())
     shapes.push_back({"the grid", "grid/moments", moments_of(flow->grid())});
   return shapes;
@@ -265,25 +251,6 @@ void put(File& file, const Saved& saved)
   }
 }
 
-/// Other bits may come from another compiler; another mesh or grid differs by more than round-off.
-void require_same_shapes(const output::CheckpointReader& file, Simulation& simulation)
-{
-  constexpr double round_off = 1e-9;
-  for (const Shape& shape : shapes_of(simulation)) {
-    std::vector<double> before;
-    file.value(shape.name, before);
-    double size = 0.0;
-    for (const double x : before)
-      size = std::max(size, std::abs(x));
-    bool same = before.size() == shape.numbers.size();
-    for (std::size_t n = 0; same && n < before.size(); ++n)
-      same = std::abs(before[n] - shape.numbers[n]) <= round_off * size;
-    if (!same)
-      fail_input("--restart: {} is not what it was when the checkpoint was written, so its run cannot go on",
-                 shape.what);
-  }
-}
-
 void restore_flow(const output::CheckpointReader& file, fluid::FlowSolver& flow, double t)
 {
   fluid::FlowState state = flow.state();
@@ -333,13 +300,7 @@ void write_checkpoint(const output::RunFolder& folder, const config::Case& optio
                       const Record& record)
 {
   const Saved saved = collect(options, simulation, record);
-  output::CheckpointSize size;
-  put(size, saved);
-  output::CheckpointWriter file(folder.comm(), folder.file(output::checkpoint_name(saved.progress.steps)),
-                                size.bytes());
-  put(file, saved);
-  file.commit();
-  output::keep_last_two(folder, saved.progress.steps);
+  write_checkpoint_file(folder, saved.progress.steps, [&](auto& file) { put(file, saved); });
 }
 
 Resumption resume(MPI_Comm comm, const RestartRequest& request, const config::Case& options, Simulation& simulation)
@@ -348,10 +309,11 @@ Resumption resume(MPI_Comm comm, const RestartRequest& request, const config::Ca
   const output::CheckpointReader file(comm, found.file);
   Progress progress;
   transfer_progress(file, progress);
-  Resumption resumption{.folder = std::filesystem::absolute(found.file).parent_path(),
-                        .passed_over = found.passed_over};
+  Resumption resumption;
+  resumption.folder = std::filesystem::absolute(found.file).parent_path();
+  resumption.passed_over = found.passed_over;
   resumption.changed = config::accept_changes(progress.keys, options, request.case_file, request.overrides);
-  require_same_shapes(file, simulation);
+  require_same_shapes(file, shapes_of(simulation));
   if (auto* flow = simulation.surroundings().flow())
     restore_flow(file, *flow, progress.t);
   shell::Checkpoint shells;

@@ -2,12 +2,9 @@
 // Saves a run so that it can go on with the same bits, and goes on.
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "config/case.hpp"
 #include "output/run_folder.hpp"
+#include "simulation/checkpoint_parts.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/tally.hpp"
 
@@ -18,19 +15,9 @@ namespace luff::simulation {
 void write_checkpoint(const output::RunFolder& folder, const config::Case& options, Simulation& simulation,
                       const Record& record);
 
-/// What was asked for on the command line.
-struct RestartRequest {
-  std::filesystem::path from;  ///< a run's folder or a checkpoint
-  std::filesystem::path case_file;
-  config::Overrides overrides;
-};
-
 /// A simulation that stands where a checkpoint was written.
-struct Resumption {
-  std::filesystem::path folder;  ///< of the run that goes on
+struct Resumption : GoingOn {
   Record record = {};
-  std::vector<std::string> changed = {};  ///< keys that have another value now
-  std::vector<std::string> passed_over;   ///< checkpoints that were damaged, and why
 };
 
 /// Sets a simulation just built from the case to the newest whole checkpoint.  Collective.  Throws InputError on every

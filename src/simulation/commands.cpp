@@ -163,20 +163,21 @@ std::shared_ptr<spdlog::logger> start_log(const output::RunFolder& folder, const
   return log;
 }
 
-void say_resumption(spdlog::logger& log, const Clock& clock, const Resumption& resumption)
+/// `where`: "step 12, t = 0.3".
+void say_resumption(spdlog::logger& log, const std::string& where, const GoingOn& resumption)
 {
   for (const std::string& reason : resumption.passed_over)
     log.warn("{}", reason);
-  log.info("goes on from step {}, t = {:.6g}, of {}", clock.steps(), clock.now(), resumption.folder.string());
+  log.info("goes on from {}, of {}", where, resumption.folder.string());
   for (const std::string& change : resumption.changed)
     log.info("changed: {}", change);
 }
 
 /// A run's own folder is cut back to where it goes on from.
-void prepare_folder(const output::RunFolder& folder, const Clock& clock)
+void prepare_folder(const output::RunFolder& folder, long steps)
 {
   folder.forget_stop();
-  output::drop_checkpoints_after(folder, clock.steps());
+  output::drop_checkpoints_after(folder, steps);
 }
 
 output::SurfaceSnapshot surface_snapshot(const Structure& structure, const SheetRange& sheet)
@@ -190,6 +191,36 @@ output::SurfaceSnapshot surface_snapshot(const Structure& structure, const Sheet
   return snapshot;
 }
 
+void run_still(MPI_Comm comm, const std::filesystem::path& file, const config::Overrides& overrides,
+               const config::Case& options, const RunOptions& run)
+{
+  const bool modes = options.structure.analysis == config::Analysis::Modes;
+  if (modes && !run.restart.empty())
+    fail_input("--restart {}: modes are found at once; only runs in time or of a growing load go on from a checkpoint",
+               run.restart.string());
+  const auto structure = build_structure(options);
+  const std::vector<LoadedShell> shells = build_still(options);
+  const std::optional<output::RunFolder> earlier = earlier_folder(comm, run);
+  std::optional<StaticResumption> resumption;
+  if (!run.restart.empty())
+    resumption = resume_static(comm, {run.restart, file, overrides}, options, shells);
+  const output::RunFolder folder = earlier ? *earlier : make_folder(comm, file, run);
+  if (resumption)
+    prepare_folder(folder, resumption->record.steps);
+  const auto log = start_log(folder, options);
+  say_groups(*log, options, *structure, /*grid=*/nullptr);
+  if (resumption)
+    say_resumption(
+        *log,
+        fmt::format("step {}, load factor {:.6g}", resumption->record.point.step, resumption->record.point.load_factor),
+        *resumption);
+  if (modes)
+    run_modes(folder, log, options, shells);
+  else
+    run_static(folder, log, options, shells, anywhere(comm, run.interrupted), resumption ? &*resumption : nullptr);
+  picture(folder, *log, options, run);
+}
+
 }  // namespace
 
 void run_case(MPI_Comm comm, const std::filesystem::path& file, const config::Overrides& overrides,
@@ -199,19 +230,7 @@ void run_case(MPI_Comm comm, const std::filesystem::path& file, const config::Ov
   const config::Case options = config::load_case(file, overrides);
   set_threads(comm, options, run.threads);
   if (!marches(options)) {
-    if (!run.restart.empty())
-      fail_input("--restart {}: only motion in time goes on from a checkpoint, not structure.analysis of another kind",
-                 run.restart.string());
-    const auto structure = build_structure(options);
-    const std::vector<LoadedShell> shells = build_still(options);
-    const output::RunFolder folder = make_folder(comm, file, run);
-    const auto log = start_log(folder, options);
-    say_groups(*log, options, *structure, /*grid=*/nullptr);
-    if (options.structure.analysis == config::Analysis::Modes)
-      run_modes(folder, log, options, shells);
-    else
-      run_static(folder, log, options, shells, anywhere(comm, run.interrupted));
-    picture(folder, *log, options, run);
+    run_still(comm, file, overrides, options, run);
   } else {
     const auto simulation = build_simulation(comm, options);
     const std::optional<output::RunFolder> earlier = earlier_folder(comm, run);
@@ -220,11 +239,12 @@ void run_case(MPI_Comm comm, const std::filesystem::path& file, const config::Ov
       resumption = resume(comm, {run.restart, file, overrides}, options, *simulation);
     const output::RunFolder folder = earlier ? *earlier : make_folder(comm, file, run);
     if (resumption)
-      prepare_folder(folder, simulation->clock());
+      prepare_folder(folder, simulation->clock().steps());
     const auto log = start_log(folder, options);
     say_groups(*log, options, simulation->structure(), grid_of(*simulation));
     if (resumption)
-      say_resumption(*log, simulation->clock(), *resumption);
+      say_resumption(*log, fmt::format("step {}, t = {:.6g}", simulation->clock().steps(), simulation->clock().now()),
+                     *resumption);
     march(folder, log, options, *simulation, anywhere(comm, run.interrupted), resumption);
     picture(folder, *log, options, run);
   }

@@ -7,8 +7,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "output/csv.hpp"
 #include "output/series.hpp"
+#include "parallel/agreement.hpp"
 #include "shell/path_following.hpp"
 #include "simulation/build.hpp"
 #include "surface/selection.hpp"
@@ -27,7 +29,8 @@ struct StaticProbe {
 };
 
 std::vector<StaticProbe> open_probes(const output::RunFolder& folder, const config::Case& options,
-                                     const std::string& shell, const surface::TriangleMesh& reference)
+                                     const std::string& shell, const surface::TriangleMesh& reference,
+                                     const output::EarlierOutput* earlier)
 {
   std::vector<output::Column> columns{{"load_factor", ""}};
   for (const output::Column& c : output::vector_columns("displacement", "length"))
@@ -40,7 +43,7 @@ std::vector<StaticProbe> open_probes(const output::RunFolder& folder, const conf
           {probe.name,
            surface::select_vertices(reference, surface::PointWhere{probe.point}, fmt::format("probe '{}'", probe.name))
                .front(),
-           output::CsvWriter(folder, "probe-" + probe.name + ".csv", columns)});
+           output::CsvWriter(folder, "probe-" + probe.name + ".csv", columns, earlier)});
   return probes;
 }
 
@@ -50,11 +53,11 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 class StaticRecorder {
  public:
   StaticRecorder(const output::RunFolder& folder, const config::Case& options, const shell::Shell& shell,
-                 const shell::PieceRange& piece)
+                 const shell::PieceRange& piece, const output::EarlierOutput* earlier)
       : first_(3 * piece.first_vertex),
         reference_(shell.reference_of(piece)),
         by_load_(options.structure.analysis == config::Analysis::Static),
-        probes_(open_probes(folder, options, piece.name, reference_)),
+        probes_(open_probes(folder, options, piece.name, reference_, earlier)),
         steps_(folder, "steps-" + piece.name + ".csv",
                {{"step", ""},
                 {"load_factor", ""},
@@ -64,10 +67,12 @@ class StaticRecorder {
                 {"largest_fold", "degrees"},
                 {"sharp_folds", ""},
                 {"contact_pairs", ""},
-                {"smallest_gap", "length"}}),
-        series_(folder, "shell-" + piece.name)
+                {"smallest_gap", "length"}},
+               earlier),
+        series_(folder, "shell-" + piece.name, earlier)
   {
-    series_.write(0.0, displaced(reference_, surface::interleaved(reference_.vertices)));
+    if (series_.mark().instants.empty())
+      series_.write(0.0, displaced(reference_, surface::interleaved(reference_.vertices)));
   }
 
   void record(const shell::StaticStep& step, nlohmann::ordered_json& summary)
@@ -88,6 +93,15 @@ class StaticRecorder {
     }
   }
 
+  [[nodiscard]] std::vector<const output::CsvWriter*> tables() const
+  {
+    std::vector<const output::CsvWriter*> all{&steps_};
+    for (const StaticProbe& probe : probes_)
+      all.push_back(&probe.csv);
+    return all;
+  }
+  [[nodiscard]] const output::SeriesMark& series() const { return series_.mark(); }
+
  private:
   Eigen::Index first_;  ///< of its numbers among those of all shells that are solved together
   surface::TriangleMesh reference_;
@@ -100,12 +114,17 @@ class StaticRecorder {
 /// Writes where the bodies are that shells touch.
 class BodyRecorder {
  public:
-  BodyRecorder(const output::RunFolder& folder, const shell::ContactOptions& contact) : contact_(contact)
+  BodyRecorder(const output::RunFolder& folder, const shell::ContactOptions& contact,
+               const output::EarlierOutput* earlier)
+      : contact_(contact)
   {
     for (const shell::ContactSheet& body : contact.bodies)
-      series_.emplace_back(folder, "body-" + body.name);
-    record(0.0);
+      series_.emplace_back(folder, "body-" + body.name, earlier);
+    if (!series_.empty() && series_.front().mark().instants.empty())
+      record(0.0);
   }
+
+  [[nodiscard]] const std::vector<output::SurfaceSeries>& series() const { return series_; }
 
   void record(double load_factor)
   {
@@ -125,31 +144,29 @@ class BodyRecorder {
   std::vector<output::SurfaceSeries> series_;
 };
 
-/// Over all equilibria: what a run with contact says at its end.
-struct ContactTally {
-  int most_pairs = 0;
-  int crossings = 0;
-  double smallest_gap = std::numeric_limits<double>::infinity();
+void add(const shell::StaticContact& contact, ContactTally& tally)
+{
+  tally.most_pairs = std::max(tally.most_pairs, contact.report.active_pairs);
+  tally.crossings += contact.crossings;
+  tally.smallest_gap = std::min(tally.smallest_gap, contact.report.smallest_gap);
+}
 
-  void add(const shell::StaticContact& contact)
-  {
-    most_pairs = std::max(most_pairs, contact.report.active_pairs);
-    crossings += contact.crossings;
-    smallest_gap = std::min(smallest_gap, contact.report.smallest_gap);
-  }
-  [[nodiscard]] nlohmann::ordered_json summary() const
-  {
-    nlohmann::ordered_json result{{"most_pairs", most_pairs}, {"crossings", crossings}};
-    if (most_pairs > 0)
-      result["smallest_gap"] = smallest_gap;
-    return result;
-  }
-};
+nlohmann::ordered_json summary_of(const ContactTally& tally)
+{
+  nlohmann::ordered_json result{{"most_pairs", tally.most_pairs}, {"crossings", tally.crossings}};
+  if (tally.most_pairs > 0)
+    result["smallest_gap"] = tally.smallest_gap;
+  return result;
+}
 
-void analyse(const LoadedShell& loaded, const config::StructureOptions& structure, const shell::OnStaticStep& on_step)
+/// From `start`, or from the reference where that is step 0.
+void analyse(const LoadedShell& loaded, const config::StructureOptions& structure, const shell::PathPoint& start,
+             const shell::OnStaticStep& on_step)
 {
   shell::StaticOptions options = static_options(structure);
   options.contact = loaded.contact;
+  if (start.step > 0)
+    options.from = start;
   switch (structure.analysis) {
     case config::Analysis::ArcLength:
       shell::follow_arc_length(*loaded.shell, loaded.loads, {options, structure.max_steps}, on_step);
@@ -182,61 +199,193 @@ std::string told(const shell::StaticStep& step)
   return text;
 }
 
-/// Loads one shell, or all that may touch, and writes what becomes of them.
+/// Writes what becomes of one shell, or of all that may touch.
 class StaticAnalysis {
  public:
   StaticAnalysis(const output::RunFolder& folder, spdlog::logger& log, const config::Case& options,
-                 const LoadedShell& loaded, nlohmann::ordered_json& summary)
-      : log_(log), structure_(options.structure), loaded_(loaded), summary_(summary)
+                 const LoadedShell& loaded, nlohmann::ordered_json& summary, const output::EarlierOutput* earlier)
+      : log_(log), loaded_(loaded), summary_(summary)
   {
     for (const shell::PieceRange& piece : loaded.shell->pieces()) {
       log.info("open in ParaView: {}", folder.file("shell-" + piece.name + ".pvd").string());
-      recorders_.emplace_back(folder, options, *loaded.shell, piece);
-      summary["shells"][piece.name] = {{"triangles_on_a_conic", loaded.shell->n_hinge_patches()},
-                                       {"worst_conic", loaded.shell->worst_conic()}};
+      recorders_.emplace_back(folder, options, *loaded.shell, piece, earlier);
+      summary["shells"][piece.name]["triangles_on_a_conic"] = loaded.shell->n_hinge_patches();
+      summary["shells"][piece.name]["worst_conic"] = loaded.shell->worst_conic();
     }
     if (loaded.contact)
-      bodies_.emplace(folder, *loaded.contact);
+      bodies_.emplace(folder, *loaded.contact, earlier);
   }
 
-  /// `ended`: whether the user asks the run to end.
-  void run(const std::function<bool()>& ended)
-  {
-    analyse(loaded_, structure_, [&](const shell::StaticStep& step) {
-      record(step);
-      if (ended() && step.load_factor < 1.0)
-        throw Stopped();
-    });
-  }
-
- private:
-  void record(const shell::StaticStep& step)
+  /// An equilibrium, and what was counted up to the one before.
+  void record(const shell::StaticStep& step, StaticRecord& so_far)
   {
     log_.info("shell '{}': {}", loaded_.shell->name(), told(step));
     for (StaticRecorder& recorder : recorders_)
       recorder.record(step, summary_);
     summary_["load_factor"] = step.load_factor;
-    sharp_folds_ += step.folds.n_sharp;
+    so_far.sharp_folds += step.folds.n_sharp;
     for (const shell::PieceRange& piece : loaded_.shell->pieces())
-      summary_["shells"][piece.name]["folds_above_45_degrees"] = sharp_folds_;
+      summary_["shells"][piece.name]["folds_above_45_degrees"] = so_far.sharp_folds;
     if (!step.contact)
       return;
     bodies_->record(step.load_factor);
-    contact_.add(*step.contact);
-    summary_["contact"] = contact_.summary();
+    add(*step.contact, so_far.contact);
+    summary_["contact"] = summary_of(so_far.contact);
     if (step.contact->crossings > 0)
       log_.warn("contact: {} edges pass through triangles", step.contact->crossings);
   }
 
+  [[nodiscard]] std::vector<const output::CsvWriter*> tables() const
+  {
+    std::vector<const output::CsvWriter*> all;
+    for (const StaticRecorder& recorder : recorders_)
+      for (const output::CsvWriter* table : recorder.tables())
+        all.push_back(table);
+    return all;
+  }
+
+  [[nodiscard]] std::vector<const output::SeriesMark*> series() const
+  {
+    std::vector<const output::SeriesMark*> all;
+    for (const StaticRecorder& recorder : recorders_)
+      all.push_back(&recorder.series());
+    if (bodies_)
+      for (const output::SurfaceSeries& body : bodies_->series())
+        all.push_back(&body.mark());
+    return all;
+  }
+
+ private:
   spdlog::logger& log_;
-  const config::StructureOptions& structure_;
   const LoadedShell& loaded_;
   nlohmann::ordered_json& summary_;
   std::vector<StaticRecorder> recorders_;
   std::optional<BodyRecorder> bodies_;  ///< with contact
-  long sharp_folds_ = 0;
-  ContactTally contact_;
 };
+
+/// Loads all shells of a case, one after the other, and saves where it stands when it is stopped or fails.
+class StaticRun {
+ public:
+  StaticRun(const output::RunFolder& folder, spdlog::logger& log, const config::Case& options,
+            const std::vector<LoadedShell>& shells, nlohmann::ordered_json& summary, const StaticResumption* resumption)
+      : folder_(folder),
+        log_(log),
+        options_(options),
+        shells_(shells),
+        summary_(summary),
+        so_far_(resumption != nullptr ? resumption->record : StaticRecord())
+  {
+    const output::EarlierOutput* earlier = resumption != nullptr ? &resumption->record.output : nullptr;
+    for (const LoadedShell& loaded : shells)
+      analyses_.emplace_back(folder, log, options, loaded, summary, earlier);
+    for (const output::CsvWriter* table : tables())
+      if (!table->whole())
+        log.warn("{}: the rows of the earlier run are not there any more, or have other columns; it begins anew",
+                 table->mark().file);
+  }
+
+  /// `ended`: whether the user asks the run to end.
+  void run(const std::function<bool()>& ended)
+  {
+    try {
+      for (; so_far_.shell < static_cast<std::int64_t>(shells_.size()); begin_next_shell())
+        load(static_cast<std::size_t>(so_far_.shell), ended);
+    } catch (const Stopped&) {
+      checkpoint();
+      throw;
+    } catch (const std::exception&) {
+      if (all_ranks_arrive(folder_.comm()))
+        checkpoint();
+      else
+        log_.warn("no checkpoint: the ranks of the run have lost each other");
+      throw;
+    }
+  }
+
+ private:
+  void load(std::size_t n, const std::function<bool()>& ended)
+  {
+    analyse(shells_[n], options_.structure, so_far_.point, [&](const shell::StaticStep& step) {
+      recording_ = true;
+      analyses_[n].record(step, so_far_);
+      ++so_far_.steps;
+      so_far_.point = shell::point_of(step);
+      recording_ = false;
+      if (ended() && step.load_factor < 1.0)
+        throw Stopped();
+    });
+  }
+
+  void begin_next_shell()
+  {
+    ++so_far_.shell;
+    so_far_.point = {};
+    so_far_.sharp_folds = 0;
+  }
+
+  /// A run that is stopped or fails can go on.
+  void checkpoint()
+  {
+    if (so_far_.steps == 0)
+      return;
+    try {
+      if (recording_)
+        fail_run("the tables lack the last step");
+      bool flushed = true;
+      for (const output::CsvWriter* table : tables())
+        flushed = table->flush() && flushed;
+      if (!on_all_ranks(folder_.comm(), flushed))
+        fail_run("tables cannot be written to disk");
+      write_checkpoint(folder_, options_, shells_, record());
+      log_.info("go on from here with: luff run CASE --restart {}", folder_.path().string());
+    } catch (const RunError& error) {
+      log_.warn("no checkpoint: {}", error.what());
+    }
+  }
+
+  [[nodiscard]] StaticRecord record() const
+  {
+    StaticRecord record = so_far_;
+    record.summary = summary_.dump();
+    record.output = {};
+    for (const output::CsvWriter* table : tables())
+      record.output.tables.push_back(table->mark());
+    for (const StaticAnalysis& analysis : analyses_)
+      for (const output::SeriesMark* mark : analysis.series())
+        record.output.series.push_back(*mark);
+    return record;
+  }
+
+  [[nodiscard]] std::vector<const output::CsvWriter*> tables() const
+  {
+    std::vector<const output::CsvWriter*> all;
+    for (const StaticAnalysis& analysis : analyses_)
+      for (const output::CsvWriter* table : analysis.tables())
+        all.push_back(table);
+    return all;
+  }
+
+  const output::RunFolder& folder_;
+  spdlog::logger& log_;
+  const config::Case& options_;
+  const std::vector<LoadedShell>& shells_;
+  nlohmann::ordered_json& summary_;
+  StaticRecord so_far_;
+  bool recording_ = false;  ///< an equilibrium of which not all is written yet
+  std::vector<StaticAnalysis> analyses_;
+};
+
+/// Of a new run, or as the earlier one left it.
+nlohmann::ordered_json first_summary(const config::Case& options, const StaticResumption* resumption)
+{
+  nlohmann::ordered_json summary{{"title", options.title}, {"state", "failed"}};
+  if (resumption == nullptr)
+    return summary;
+  summary.update(nlohmann::ordered_json::parse(resumption->record.summary));
+  summary["title"] = options.title;
+  summary["restarts"] = summary.value("restarts", 0) + 1;
+  return summary;
+}
 
 /// All shells of a case as one, since they may touch.
 LoadedShell build_touching(const config::Case& options)
@@ -266,15 +415,14 @@ std::vector<LoadedShell> build_static(const config::Case& options)
 
 void run_static(const output::RunFolder& folder, const std::shared_ptr<spdlog::logger>& log,
                 const config::Case& options, const std::vector<LoadedShell>& shells,
-                const std::function<bool()>& interrupted)
+                const std::function<bool()>& interrupted, const StaticResumption* resumption)
 {
-  nlohmann::ordered_json summary{{"title", options.title}, {"state", "failed"}};
+  nlohmann::ordered_json summary = first_summary(options, resumption);
   summarise(folder, *log, summary, "probe-*.csv", [&] {
-    for (const LoadedShell& loaded : shells)
-      StaticAnalysis(folder, *log, options, loaded, summary).run([&] {
-        const bool stop = folder.stop_requested();
-        return interrupted() || stop;
-      });
+    StaticRun(folder, *log, options, shells, summary, resumption).run([&] {
+      const bool stop = folder.stop_requested();
+      return interrupted() || stop;
+    });
   });
 }
 

@@ -87,8 +87,8 @@ void expect_same_steps(const std::filesystem::path& a, const std::filesystem::pa
     }
 }
 
-/// Everything that a run leaves but log and times, byte by byte.
-void expect_same_files(const std::filesystem::path& a, const std::filesystem::path& b)
+/// Every table and picture that a run leaves but steps.csv, byte by byte.
+void expect_same_results(const std::filesystem::path& a, const std::filesystem::path& b)
 {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(a)) {
     const auto name = std::filesystem::relative(entry.path(), a);
@@ -99,6 +99,12 @@ void expect_same_files(const std::filesystem::path& a, const std::filesystem::pa
     ASSERT_TRUE(std::filesystem::exists(b / name)) << name;
     EXPECT_TRUE(contents_of(entry.path()) == contents_of(b / name)) << name << " differs";
   }
+}
+
+/// Everything that a run leaves but log and times.
+void expect_same_files(const std::filesystem::path& a, const std::filesystem::path& b)
+{
+  expect_same_results(a, b);
   expect_same_steps(a, b);
 }
 
@@ -439,6 +445,151 @@ TEST_F(Restart, IsPossibleFromTheLastCheckpointThatFittedOnTheDisk)
   EXPECT_GE(read_summary(parts)["failed_checkpoints"], 1);
   run_well(folder, end + Words{"--restart", "parts"});
   expect_same_files(whole, parts);
+}
+
+/// A static run that fails where the shell folds by more than a limit in the middle of its way.
+struct StaticPath {
+  const char* name;
+  std::string text;
+  Words sets;
+  const char* fold_limit;  ///< [degrees]
+};
+
+void PrintTo(const StaticPath& path, std::ostream* out)
+{
+  *out << path.name;
+}
+
+class StaticRestart : public testing::TestWithParam<StaticPath> {
+ protected:
+  [[nodiscard]] Outcome run(const Words& more) const
+  {
+    return luff(folder, Words{"run", "case.toml"} + GetParam().sets + more);
+  }
+  /// One run at a go in `whole`, one that failed in `parts`.
+  void prepare() const
+  {
+    folder.write("case.toml", GetParam().text);
+    const Outcome at_a_go = run(into("whole"));
+    ASSERT_EQ(at_a_go.status, 0) << at_a_go.said;
+    const Outcome failed =
+        run(into("parts") + Words{"--set", std::string("structure.fold_limit=") + GetParam().fold_limit});
+    ASSERT_EQ(failed.status, 1) << failed.said;
+    ASSERT_NE(failed.said.find("go on from here with: luff run CASE --restart"), std::string::npos) << failed.said;
+  }
+  void expect_as_at_a_go(const std::filesystem::path& out) const
+  {
+    expect_same_results(whole, out);
+    nlohmann::json summary = read_summary(out);
+    EXPECT_EQ(summary["restarts"], 1);
+    summary.erase("restarts");
+    EXPECT_EQ(summary, read_summary(whole));
+  }
+
+  WorkFolder folder;
+  std::filesystem::path whole = folder.path() / "whole";
+  std::filesystem::path parts = folder.path() / "parts";
+};
+
+std::map<std::string, std::string> tables_of(const std::filesystem::path& run)
+{
+  std::map<std::string, std::string> found;
+  for (const auto& entry : std::filesystem::directory_iterator(run))
+    if (entry.path().extension() == ".csv")
+      found[entry.path().filename()] = contents_of(entry.path());
+  EXPECT_FALSE(found.empty());
+  return found;
+}
+
+TEST_P(StaticRestart, LeavesTheSameBytesInItsOwnAndInANewFolder)
+{
+  prepare();
+  const std::string before = folder.read("parts/summary.json");
+  const Outcome elsewhere = run({"--restart", "parts", "--out", "new"});
+  ASSERT_EQ(elsewhere.status, 0) << elsewhere.said;
+  EXPECT_EQ(tables_of(folder.path() / "new"), tables_of(whole));
+  EXPECT_EQ(folder.read("parts/summary.json"), before);
+  const Outcome went_on = run({"--restart", "parts"});
+  ASSERT_EQ(went_on.status, 0) << went_on.said;
+  EXPECT_NE(went_on.said.find("goes on from step "), std::string::npos) << went_on.said;
+  EXPECT_NE(went_on.said.find("changed: structure.fold_limit = 75"), std::string::npos) << went_on.said;
+  expect_as_at_a_go(parts);
+}
+
+const std::string static_strip =
+    changed(changed(small_strip, "[time]\nend = 0.5\nstep = 0.05\n", "[structure]\nanalysis = \"static\"\nsteps = 6\n"),
+            "\"0.001*t\"", "0.004");
+
+/// The second of them alone is loaded, and fails.
+const std::string two_strips =
+    changed(changed(pressed_strips.substr(0, pressed_strips.find("[[body]]")) +
+                        pressed_strips.substr(pressed_strips.find("[output]")),
+                    "[contact]\ndistance = 0.04\nstiffness = 1.0\n", ""),
+            "[output]", "[[shell.load]]\nwhere = { all = true }\npressure = 0.003\n[output]");
+
+const StaticPath static_paths[] = {
+    {"OfLoadSteps", static_strip, {}, "12"},
+    {"ThroughASnap", changed(small_roof, "\"arc-length\"", "\"static\"\nstabilisation = \"damping\""), {}, "5"},
+    {"AlongAnArc", small_roof, {}, "3.4"},
+    {"OfADisplacement",
+     changed(changed(small_roof, "\"arc-length\"", "\"displacement-control\""), "thickness = 6.35", "thickness = 12.7"),
+     {"--set", "structure.control={ where = { point = [0, 0, 2540] }, component = \"z\", displacement = -25 }"},
+     "2.1"},
+    {"WithContact", pressed_strips, {}, "1.2"},
+    {"OfTheSecondShell", two_strips, {}, "3"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Paths, StaticRestart, testing::ValuesIn(static_paths),
+                         [](const auto& path) { return path.param.name; });
+
+TEST(StaticRestarts, RefuseAnotherLoadOrMesh)
+{
+  const WorkFolder folder;
+  folder.write("case.toml", static_strip);
+  EXPECT_EQ(luff(folder, {"run", "case.toml", "--out", "parts", "--set", "structure.fold_limit=12"}).status, 1);
+  const Outcome load =
+      luff(folder, {"run", "case.toml", "--restart", "parts", "--set", "shell.strip.load.0.force=[0, 0, 0.005]"});
+  EXPECT_EQ(load.status, 2);
+  EXPECT_NE(load.said.find("0.004] in the checkpoint's run: only these may change"), std::string::npos) << load.said;
+  const Outcome mesh =
+      luff(folder, {"run", "case.toml", "--restart", "parts", "--set", "shell.strip.mesh.divisions=[5, 1]"});
+  EXPECT_EQ(mesh.status, 2);
+  EXPECT_NE(mesh.said.find("mesh.divisions"), std::string::npos) << mesh.said;
+}
+
+TEST(StaticRestarts, GoOnDampedFromALimitPoint)
+{
+  const WorkFolder folder;
+  folder.write("case.toml", changed(small_roof, "\"arc-length\"", "\"static\""));
+  const Outcome met = luff(folder, {"run", "case.toml", "--out", "parts"});
+  EXPECT_EQ(met.status, 1);
+  EXPECT_NE(met.said.find("has met a limit point near load factor"), std::string::npos) << met.said;
+  run_well(folder, {"--restart", "parts", "--set", "structure.stabilisation=damping"});
+  run_well(folder, {"--out", "whole", "--set", "structure.stabilisation=damping"});
+  const double went_on = read_summary(folder.path() / "parts")["probes"]["force"][2];
+  const double at_a_go = read_summary(folder.path() / "whole")["probes"]["force"][2];
+  EXPECT_LT(at_a_go, -20);
+  EXPECT_NEAR(went_on, at_a_go, 1e-9 * std::abs(at_a_go));
+}
+
+TEST(StaticRestarts, GoOnFromAStop)
+{
+  const WorkFolder folder;
+  folder.write("case.toml", static_strip);
+  const Words many{"--set", "structure.steps=600"};
+  Process process(Words{LUFF_BINARY, "run", "case.toml", "--out", "parts"} + many, folder.path());
+  ASSERT_TRUE(wait_for_rows(folder.path() / "parts/steps-strip.csv"));
+  folder.write("parts/STOP", "");
+  const Outcome stopped = process.wait();
+  EXPECT_EQ(stopped.status, 0) << stopped.said;
+  EXPECT_EQ(read_summary(folder.path() / "parts")["state"], "stopped");
+  run_well(folder, many + Words{"--restart", "parts"});
+  EXPECT_EQ(read_summary(folder.path() / "parts")["state"], "finished");
+  const Table steps = read_table(folder.path() / "parts/steps-strip.csv");
+  ASSERT_EQ(steps.rows.size(), 600U);
+  const std::vector<double> number = steps.column("step");
+  for (std::size_t n = 0; n < number.size(); ++n)
+    EXPECT_EQ(number[n], static_cast<double>(n + 1));
 }
 
 }  // namespace

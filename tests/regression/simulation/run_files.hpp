@@ -2,9 +2,12 @@
 // Reads what a run left: tables, summary, time series.
 #pragma once
 
+#include <chrono>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -80,6 +83,22 @@ inline std::vector<double> read_series(const std::filesystem::path& pvd)
     EXPECT_NE(contents_of(file).find("</VTKFile>"), std::string::npos) << file << " is cut short";
   }
   return times;
+}
+
+/// Waits until the run has made steps; false if it ended before.
+inline bool wait_for_rows(const std::filesystem::path& table)
+{
+  for (int n = 0; n < 2000; ++n) {
+    std::ifstream in(table);
+    std::string line;
+    int lines = 0;
+    while (std::getline(in, line))
+      ++lines;
+    if (lines > 3)
+      return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
 }
 
 }  // namespace luff::test

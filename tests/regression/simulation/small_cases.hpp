@@ -161,6 +161,35 @@ shell = "strip"
 point = [1, 0, 0]
 )toml";
 
+/// A quarter of a shallow roof hinged along its straight sides, which snaps through under a force in its middle.
+inline const std::string small_roof = R"toml(title = "Small roof"
+[structure]
+analysis = "arc-length"
+steps = 10
+[[shell]]
+name = "roof"
+mesh = { shape = "cylinder", centre = [254, 0, 0], axis = [-1, 0, 0], start = [0, 0, 1], radius = 2540.0, length = 254.0, angle = { from = 0, to = 5.729577951308232 }, divisions = [6, 6], pattern = "alternating" }
+thickness = 6.35
+density = 1.0
+material = { model = "saint-venant-kirchhoff", young = 3102.75, poisson = 0.3 }
+[[shell.support]]
+where = { plane = { point = [0, 0, 0], normal = [1, 0, 0] } }
+type = "symmetry"
+[[shell.support]]
+where = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+type = "symmetry"
+[[shell.support]]
+where = { plane = { point = [0, 253.576878, 0], normal = [0, 1, 0] } }
+type = "hinged"
+[[shell.load]]
+where = { point = [0, 0, 2540] }
+force = [0.0, 0.0, -750.0]
+[[output.probe]]
+name = "force"
+shell = "roof"
+point = [0, 0, 2540]
+)toml";
+
 /// Two strips, clamped 0.06 apart, that a load presses together, and a plate that comes up 0.03 from below the lower
 /// one.
 inline const std::string pressed_strips = R"toml(title = "Pressed strips"

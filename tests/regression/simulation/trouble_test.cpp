@@ -141,22 +141,6 @@ TEST(Trouble, AStaticLoadBeyondAllBoundsFailsWithLoadFactorAndPlace)
   expect_readable(folder.path() / "out", 0);
 }
 
-/// Waits until the run has made steps; false if it ended before.
-bool wait_for_rows(const std::filesystem::path& table)
-{
-  for (int n = 0; n < 2000; ++n) {
-    std::ifstream in(table);
-    std::string line;
-    int lines = 0;
-    while (std::getline(in, line))
-      ++lines;
-    if (lines > 3)
-      return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
-}
-
 void expect_clean_stop(const WorkFolder& folder, const Outcome& run)
 {
   EXPECT_EQ(run.status, 0) << run.said;
