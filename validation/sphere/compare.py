@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the sphere in a stream and compares drag, lift, frequency and wake length with published figures.
 
-Usage: validation/sphere/compare.py [--re RE ...] [--spacing H] [--out DIR]
+Usage: validation/sphere/compare.py [--re RE ...] [--spacing H] [--wake X] [--end T] [--out DIR]
 
 Half a sphere of diameter 1, immersed, on a plane of symmetry z = 0, in a stream U = 1: the wake at Re = 300 has such a plane.
 At Re = 100 it is steady; at Re = 300 the initial velocity has a cross-stream part behind the sphere, which starts the shedding.
@@ -36,7 +36,7 @@ density = 1.0
 viscosity = {viscosity}
 initial.velocity = [1.0, "{nudge}*exp(-(x-1.5)^2-y^2-z^2)", 0.0]
 [grid]
-x = {{ from = -10.0, to = 20.0, cells = {along}, refine = {{ from = -0.8, to = 2.0, spacing = {spacing} }} }}
+x = {{ from = -10.0, to = 20.0, cells = {along}, refine = {{ from = -0.8, to = {wake}, spacing = {spacing} }} }}
 y = {{ from = -10.0, to = 10.0, cells = {high}, refine = {{ from = -0.76, to = 0.76, spacing = {spacing} }} }}
 z = {{ from = 0.0, to = 10.0, cells = {deep}, refine = {{ from = 0.0, to = 0.76, spacing = {spacing} }} }}
 [boundary]
@@ -65,13 +65,13 @@ def references(re):
     return [row for row in rows if float(row["Re"]) == re]
 
 
-def run(re, spacing, end, out):
+def run(re, spacing, wake, end, out):
     if (out / "run" / "summary.json").exists():
         return
-    equal = [round(length / spacing) for length in (2.8, 1.52, 0.76)]
+    equal = [round(length / spacing) for length in (0.8 + wake, 1.52, 0.76)]
     finer = 0.04 / spacing  # cells in the stretched parts go with it: the same growth in less of a cell
     text = CASE.format(reynolds=f"{re:g}", viscosity=1 / re, end=end, every=10.0, nudge=0.0 if re < 210 else 0.2,
-                       spacing=spacing, along=equal[0] + round(76 * finer), high=equal[1] + round(40 * finer),
+                       spacing=spacing, wake=wake, along=equal[0] + round(76 * finer), high=equal[1] + round(40 * finer),
                        deep=equal[2] + round(20 * finer))
     out.mkdir(parents=True, exist_ok=True)
     (out / "case.toml").write_text(text)
@@ -106,7 +106,10 @@ def measured(re, out):
     t, drag, lift = coefficients(out)
     if re < 210:
         return {"Cd_mean": drag[-1], "L_over_D": wake_length(out)}, (t, drag, lift)
-    swing = lift - np.mean(lift[t > 0.6 * t[-1]])
+    # From minimum to minimum of the lift, whose amplitude is modulated: its mean isn't crossed in every period.
+    even = np.arange(t[0], t[-1], 0.05)
+    smooth = np.convolve(np.interp(even, t, lift), np.full(11, 1 / 11), "same")
+    swing = np.interp(t, even, np.gradient(smooth))
     ups = np.flatnonzero((swing[:-1] < 0) & (swing[1:] >= 0) & (t[1:] > 0.6 * t[-1]))
     crossings = t[ups] - swing[ups] * (t[ups + 1] - t[ups]) / (swing[ups + 1] - swing[ups])
     window = (t >= crossings[0]) & (t <= crossings[-1])  # whole periods
@@ -123,12 +126,14 @@ def main():
     parser.add_argument("--out", type=Path, default=here / "results")
     parser.add_argument("--re", type=float, nargs="+", default=[100, 300])
     parser.add_argument("--spacing", type=float, default=0.05, help="of the cells around the sphere, in its diameter")
+    parser.add_argument("--wake", type=float, default=2.0, help="up to where they go behind its centre")
+    parser.add_argument("--end", type=float, help="of the runs; default 40 at Re = 100, 110 at Re = 300")
     arguments = parser.parse_args()
     figure, axes = plt.subplots(len(arguments.re), 1, figsize=(8, 3 * len(arguments.re)), squeeze=False)
     print("Re | quantity | luff | published | from")
     for axis, re in zip(axes[:, 0], arguments.re):
         out = arguments.out / f"re{re:g}-{arguments.spacing:g}"
-        run(re, arguments.spacing, 40.0 if re < 210 else 110.0, out)
+        run(re, arguments.spacing, arguments.wake, arguments.end or (40.0 if re < 210 else 110.0), out)
         values, (t, drag, lift) = measured(re, out / "run")
         for key, value in values.items():
             rows = [row for row in references(re) if row[key]]
