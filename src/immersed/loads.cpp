@@ -292,15 +292,17 @@ std::vector<SideTraction> node_tractions(const grid::Grid& grid, const CutLinks&
   std::vector<TriangleSums> sums(triangles.size());
   for (std::size_t n = 0; n < nodes.nodes().size(); ++n) {
     const WallNode& node = nodes.nodes()[n];
-    const auto& [a, b, c] = triangles[node.foot.triangle];
-    const Vec3 to_node = node.foot.place + node.distance * node.normal - (x[a] + x[b] + x[c]) / 3.0;
     const HitTraction t = at_foot(grid, links, node, links.cells()[n], fields);
-    const double weight = 1.0 / to_node.norm();
-    SideSums& sum = sums[node.foot.triangle][node.plus ? 1 : 0];
-    sum.area += weight;
-    sum.pressure += weight * t.pressure;
-    for (int d = 0; d < 3; ++d)
-      sum.shear[d] += weight * t.viscous[d];
+    for (const int triangle : node.touched) {
+      const auto& [a, b, c] = triangles[triangle];
+      const Vec3 to_node = node.foot.place + node.distance * node.normal - (x[a] + x[b] + x[c]) / 3.0;
+      const double weight = 1.0 / to_node.norm();
+      SideSums& sum = sums[triangle][node.plus ? 1 : 0];
+      sum.area += weight;
+      sum.pressure += weight * t.pressure;
+      for (int d = 0; d < 3; ++d)
+        sum.shear[d] += weight * t.viscous[d];
+    }
   }
   return mean_tractions(grid, triangles, x.size(), sums);
 }

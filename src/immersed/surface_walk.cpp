@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "immersed/surface_walk.hpp"
 
+#include <algorithm>
+
 #include "surface/closest_points.hpp"
 
 namespace luff::immersed {
+
+namespace {
+
+/// Area coordinates below it are zero.
+constexpr double on_edge = 1e-10;
+
+}  // namespace
 
 SurfaceWalk::SurfaceWalk(std::span<const Vec3> positions, std::span<const std::array<int, 3>> triangles)
     : positions_(positions), triangles_(triangles), first_(positions.size() + 1, 0), around_(3 * triangles.size())
@@ -38,6 +47,22 @@ SurfacePoint SurfaceWalk::closest(const Vec3& x, int near_triangle) const
           best = other;
   }
   return best.point;
+}
+
+std::vector<int> SurfaceWalk::triangles_at(const SurfacePoint& point) const
+{
+  std::vector<int> corners;  // whose triangles all hold the point
+  for (int n = 0; n < 3; ++n)
+    if (point.weights[n] > on_edge)
+      corners.push_back(triangles_[point.triangle][n]);
+  std::vector<int> found;
+  for (int n = first_[corners[0]]; n < first_[corners[0] + 1]; ++n) {
+    const auto& triangle = triangles_[around_[n]];
+    if (std::all_of(corners.begin(), corners.end(),
+                    [&](int v) { return std::find(triangle.begin(), triangle.end(), v) != triangle.end(); }))
+      found.push_back(around_[n]);
+  }
+  return found;
 }
 
 }  // namespace luff::immersed

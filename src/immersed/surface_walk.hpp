@@ -20,6 +20,8 @@ class SurfaceWalk {
   SurfaceWalk(std::span<const Vec3> positions, std::span<const std::array<int, 3>> triangles);
 
   [[nodiscard]] SurfacePoint closest(const Vec3& x, int near_triangle) const;
+  /// The triangles that a point of the surface lies on: its own, those at its edge, or those around its vertex.
+  [[nodiscard]] std::vector<int> triangles_at(const SurfacePoint& point) const;
 
  private:
   struct Reached {

@@ -138,6 +138,7 @@ void WallNodes::find_feet(const CutLinks& links)
     const Vec3 place = hit.weights[0] * x[a] + hit.weights[1] * x[b] + hit.weights[2] * x[c] - near.to_hit;
     WallNode& node = nodes_[n];
     node.foot = surface.closest(place, hit.triangle);
+    node.touched = surface.triangles_at(node.foot);
     node.plus = (near.side == 0) == (hit.side > 0);
     node.decay_time = links.faces()[near.face].passage;
     const Vec3 from_foot = place - node.foot.place;

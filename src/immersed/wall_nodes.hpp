@@ -19,6 +19,7 @@ namespace luff::immersed {
 ///   u_P = u_a + s_P/s_c (u_c - u_a),   u_c = sum_k w_k u_k,   s: distance from the foot.
 struct WallNode {
   SurfacePoint foot;
+  std::vector<int> touched;    ///< triangles that the foot lies on, several of them on an edge or a vertex
   Vec3 normal = Vec3::Zero();  ///< unit vector from the foot to the node, into the fluid
   bool plus = true;            ///< on the side that the triangle's normal points to
   double distance = 0.0;       ///< s_P [L]

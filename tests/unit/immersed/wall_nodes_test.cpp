@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nodes beside a sheet: linear flows exact on either side, donors on the node's own side, the closest point found.
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -191,6 +192,31 @@ TEST(SurfaceWalk, FindsTheClosestPointOfAllTriangles)
                found.weights[2] * mesh.vertices[c] - found.place)
                   .norm(),
               1e-14);
+  }
+}
+
+// Which of them a point on an edge is first found on is left to round-off.
+TEST(SurfaceWalk, KnowsAllTrianglesThatAPointLiesOn)
+{
+  const surface::TriangleMesh mesh = test::sphere(2);
+  const SurfaceWalk walk(mesh.vertices, mesh.triangles);
+  const auto holding = [&](const std::vector<int>& vertices) {
+    std::vector<int> found;
+    for (int e = 0; e < mesh.n_triangles(); ++e)
+      if (std::all_of(vertices.begin(), vertices.end(), [&](int v) {
+            return std::find(mesh.triangles[e].begin(), mesh.triangles[e].end(), v) != mesh.triangles[e].end();
+          }))
+        found.push_back(e);
+    return found;
+  };
+  for (int e = 0; e < mesh.n_triangles(); ++e) {
+    const auto& [a, b, c] = mesh.triangles[e];
+    const Vec3 corner = 1.1 * mesh.vertices[a];
+    const Vec3 edge = 0.55 * (mesh.vertices[a] + mesh.vertices[b]);
+    const Vec3 middle = 0.36 * (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]);
+    EXPECT_EQ(walk.triangles_at(walk.closest(corner, e)), holding({a}));
+    EXPECT_EQ(walk.triangles_at(walk.closest(edge, e)), holding({a, b}));
+    EXPECT_EQ(walk.triangles_at(walk.closest(middle, e)), std::vector<int>{e});
   }
 }
 
