@@ -121,12 +121,12 @@ def compare(case, cells, end, out, axes):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("cases", nargs="*", default=["plane", "cube"])
-    parser.add_argument("--cells", type=int, help="along an edge; default 128 and 64")
+    parser.add_argument("--cells", type=int, help="along an edge; default 128 and 96")
     parser.add_argument("--out", type=Path, default=here / "results")
     options = parser.parse_args()
     figure, axes = plt.subplots(len(options.cases), 2, figsize=(9, 4 * len(options.cases)), squeeze=False)
     for case, row in zip(options.cases, axes):
-        cells = options.cells or {"plane": 128, "cube": 64}[case]
+        cells = options.cells or {"plane": 128, "cube": 96}[case]
         compare(case, cells, {"plane": 70.0, "cube": 40.0}[case], options.out, row)
     figure.tight_layout()
     figure.savefig(options.out / "cavity.png", dpi=130)
