@@ -140,11 +140,14 @@ void CurvilinearOperator::list_faces(std::span<const Index3> cells, std::vector<
 double CurvilinearOperator::largest_cosine() const
 {
   double square = 0.0;
-  for (const auto& [a, b] : cross_pairs)
-    square = std::max(square, max_cells(ranks_.owned(),
-                                        [aa = G_[a], bb = G_[b], ab = G_[grid::symmetric(a, b)]](int i, int j, int k) {
-                                          return ab(i, j, k) * ab(i, j, k) / (aa(i, j, k) * bb(i, j, k));
-                                        }));
+  for (const auto& [a, b] : cross_pairs) {
+    const auto G_aa = G_[a];
+    const auto G_bb = G_[b];
+    const auto G_ab = G_[grid::symmetric(a, b)];
+    square = std::max(square, max_cells(ranks_.owned(), [=] LUFF_KERNEL(int i, int j, int k) {
+                        return G_ab(i, j, k) * G_ab(i, j, k) / (G_aa(i, j, k) * G_bb(i, j, k));
+                      }));
+  }
   return std::sqrt(ranks_.max(square));
 }
 
