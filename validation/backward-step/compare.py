@@ -12,8 +12,7 @@ separates and reattaches, and at Re = 800 the profiles of u and v at x/h = 6, 14
 (output.walls), in step heights. Writes DIR/backward-step.png (default validation/backward-step/results) and prints a table.
 """
 import argparse
-import csv
-import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -25,7 +24,9 @@ import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
+sys.path.insert(0, str(here.parent))
+from comparison import published, run_text
+
 H_STEP = 0.5
 
 CASE = """title = "Backward-facing step, Re = {reynolds}"
@@ -106,16 +107,16 @@ def velocity_along(folder, x_over_h):
 
 def compare_profiles(folder, axis):
     """Differences from Erturk's profiles, values of ours from a cubic through the four nearest centres."""
-    rows = [row for row in table("backward_step_Re800_profiles") if row["source"] == "Erturk2008"]
+    rows = [row for row in published("backward_step_Re800_profiles.csv") if row["source"] == "Erturk2008"]
     for station in (6, 14, 30):
         y, *velocity = velocity_along(folder, station)
         points = [(float(row["y_over_H"]), float(row["u"]), float(row["v"])) for row in rows
                   if float(row["x_over_h"]) == station and 0.0 < float(row["y_over_H"]) < 1.0]
         for n, component in enumerate("uv"):
             ours = [cubic(y, velocity[n], point[0]) for point in points]
-            published = np.array([point[1 + n] for point in points])
-            print(f"Re 800 | {component} at x/h = {station} | largest difference {100 * max(abs(ours - published)):.2f} %, rms "
-                  f"{100 * np.sqrt(np.mean((ours - published) ** 2)):.2f} % of U | largest value {max(abs(published)):.3f} | Erturk")
+            theirs = np.array([point[1 + n] for point in points])
+            print(f"Re 800 | {component} at x/h = {station} | largest difference {100 * max(abs(ours - theirs)):.2f} %, rms "
+                  f"{100 * np.sqrt(np.mean((ours - theirs) ** 2)):.2f} % of U | largest value {max(abs(theirs)):.3f} | Erturk")
         axis.plot(velocity[0], y, "-", lw=1, label=f"x/h = {station}")
         axis.plot([point[1] for point in points], [point[0] for point in points], ".", color=axis.lines[-1].get_color())
     axis.set(xlabel="u/U", ylabel="y/H", title="Re 800; dots: Erturk 2008")
@@ -129,29 +130,20 @@ def cubic(x, values, at):
     return sum(values[m] * np.prod([(at - x[k]) / (x[m] - x[k]) for k in near if k != m]) for m in near)
 
 
-def run(reynolds, cells, out):
+def computed(reynolds, cells, out):
     folder = out / f"re-{reynolds}-{cells}"
     end = 0.5 * reynolds
-    if not (folder / "run" / "summary.json").exists():
-        # Along the channel; across it cells are 1/cells wide. At Re = 800 the shear layers amplify what disturbs them: cells
-        # stay as long as they are down to the outflow.
-        spacing, fine, growing = (2.5 / cells, 25.0, 30) if reynolds > 500 else (2.0 / cells, 6.0, 60)
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / "case.toml").write_text(
-            CASE.format(reynolds=reynolds, end=end, every=end / 8, viscosity=1.0 / reynolds, cells=cells, fine=fine,
-                        spacing=spacing, along=round((fine + 0.5) / spacing) + growing))
-        subprocess.run([root / "luff", "run", folder / "case.toml", "--out", folder / "run"], check=True)
-    files = sorted((folder / "run" / "walls").glob("walls_*.vtp"))
+    # Along the channel; across it cells are 1/cells wide. At Re = 800 the shear layers amplify what disturbs them: cells
+    # stay as long as they are down to the outflow.
+    spacing, fine, growing = (2.5 / cells, 25.0, 30) if reynolds > 500 else (2.0 / cells, 6.0, 60)
+    text = CASE.format(reynolds=reynolds, end=end, every=end / 8, viscosity=1.0 / reynolds, cells=cells, fine=fine,
+                       spacing=spacing, along=round((fine + 0.5) / spacing) + growing)
+    files = sorted((run_text(text, folder) / "walls").glob("walls_*.vtp"))
     return positions(files[-1]), positions(files[-2]), files[-1], folder
 
 
-def table(name):
-    with open(root / "validation" / "data" / f"{name}.csv") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
-
-
 def reference(reynolds):
-    for row in table("erturk2008_backward_step"):
+    for row in published("erturk2008_backward_step.csv"):
         if int(row["Re"]) == reynolds:
             return [float(row[name]) for name in ("X1", "X2", "X3")]
     raise SystemExit(f"Erturk (2008) has no Re = {reynolds}")
@@ -159,7 +151,7 @@ def reference(reynolds):
 
 def measured(reynolds):
     """Re and X1 of the experiment nearest to it."""
-    rows = [(float(row["Re"]), float(row["X1_over_h"])) for row in table("armaly1983_backward_step")]
+    rows = [(float(row["Re"]), float(row["X1_over_h"])) for row in published("armaly1983_backward_step.csv")]
     return min(rows, key=lambda row: abs(row[0] - reynolds))
 
 
@@ -171,10 +163,10 @@ def main():
     options = parser.parse_args()
     figure, (axis, profiles) = plt.subplots(1, 2, figsize=(12, 4), width_ratios=(2, 1))
     for reynolds in options.reynolds:
-        now, before, file, folder = run(reynolds, options.cells, options.out)
-        for name, x, was, published in zip(("X1", "X2", "X3"), now, before, reference(reynolds)):
-            print(f"Re {reynolds} | {options.cells} cells | {name}/h {x:.3f} | Erturk {published} | "
-                  f"{100 * (x / published - 1):+.2f} % | moved by {x - was:+.3f} over the last eighth")
+        now, before, file, folder = computed(reynolds, options.cells, options.out)
+        for name, x, was, theirs in zip(("X1", "X2", "X3"), now, before, reference(reynolds)):
+            print(f"Re {reynolds} | {options.cells} cells | {name}/h {x:.3f} | Erturk {theirs} | "
+                  f"{100 * (x / theirs - 1):+.2f} % | moved by {x - was:+.3f} over the last eighth")
         print("Re {} | X1/h {:.3f} | Armaly et al., Re {}: {}".format(reynolds, now[0], *measured(reynolds)))
         if reynolds == 800:
             compare_profiles(folder, profiles)

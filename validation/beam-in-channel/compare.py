@@ -12,9 +12,9 @@ of 20-node bricks.  A, on the front face, half the thickness h before the middle
 Needs CalculiX (apt-get install calculix-ccx).
 """
 import argparse
-import csv
 import os
 import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -24,23 +24,17 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
+sys.path.insert(0, str(here.parent))
+from comparison import columns, run
+
 size = {"x": 0.1, "y": 0.2, "z": 0.2}  # of half the plate, from its front, the floor and the plane of symmetry
 young, poisson, pressure = 1e4, 0.4, 60.0  # as in dry.toml
 published = {"x": 0.01463, "y": 0.005, "z": -0.000447}  # solids4foam, tutorials/fluidSolidInteraction/beamInCrossFlow
 
 
-def displacements(path):
-    with open(path) as file:
-        rows = list(csv.reader(file))
-    return np.array([[float(v) for v in row[:4]] for row in rows[1:]])
-
-
-def luff(case, out, settings=()):
-    if not (out / "summary.json").exists():
-        words = [word for setting in settings for word in ("--set", setting)]
-        subprocess.run([root / "luff", "run", here / case, "--out", out, *words], check=True)
-    return out
+def displacements(table):
+    """Of a point over time, or over the load."""
+    return np.stack(list(columns(table).values())[:4], axis=1)
 
 
 def as_a_shell(out):
@@ -90,8 +84,8 @@ def main():
     parser.add_argument("--out", type=Path, default=here / "results")
     parser.add_argument("--set", dest="settings", action="append", default=[])
     arguments = parser.parse_args()
-    a = displacements(luff("case.toml", arguments.out / "run", arguments.settings) / "probe-a.csv")
-    shell, solid = as_a_shell(luff("dry.toml", arguments.out / "dry")), as_a_solid(arguments.out / "solid")
+    a = displacements(run(here / "case.toml", arguments.out / "run", arguments.settings) / "probe-a.csv")
+    shell, solid = as_a_shell(run(here / "dry.toml", arguments.out / "dry")), as_a_solid(arguments.out / "solid")
     print(f"A alone under {pressure:g} Pa | as a shell | as a solid | ratio")
     for key, ours, theirs in zip("xy", shell, solid):
         print(f"{key} | {ours:.5f} | {theirs:.5f} | {theirs / ours:.3f}")

@@ -9,8 +9,7 @@ cube: the cubic cavity, half of it up to its plane of symmetry, against Albensoe
 Writes DIR/cavity.png (default validation/cavity/results) and prints a table; 1 is the speed of the lid.
 """
 import argparse
-import csv
-import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -19,7 +18,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
+sys.path.insert(0, str(here.parent))
+from comparison import columns, published, run_text
 
 CASE = """title = "Lid-driven cavity, Re = 1000"
 [time]
@@ -45,10 +45,8 @@ tolerance = "fast"
 """
 
 
-def table(name, place, value):
-    with open(root / "validation" / "data" / f"{name}.csv") as file:
-        rows = csv.DictReader(line for line in file if not line.startswith("#"))
-        return [(float(row[place]), float(row[value])) for row in rows]
+def profile(name, place, value):
+    return [(float(row[place]), float(row[value])) for row in published(name)]
 
 
 def inside(points):
@@ -59,13 +57,13 @@ def references(case):
     """Profiles (u along y at x = 1/2, v along x at y = 1/2) by source."""
     if case == "plane":
         return {
-            "Botella & Peyret 1998": {"u": table("botella_peyret1998_Re1000_u", "y", "u"),
-                                      "v": table("botella_peyret1998_Re1000_v", "x", "v")},
-            "Ghia et al. 1982": {"u": table("ghia1982_u", "y", "u_Re1000"), "v": table("ghia1982_v", "x", "v_Re1000")},
+            "Botella & Peyret 1998": {"u": profile("botella_peyret1998_Re1000_u.csv", "y", "u"),
+                                      "v": profile("botella_peyret1998_Re1000_v.csv", "x", "v")},
+            "Ghia et al. 1982": {"u": profile("ghia1982_u.csv", "y", "u_Re1000"), "v": profile("ghia1982_v.csv", "x", "v_Re1000")},
         }
-    v = [(x, -u) for x, u in table("albensoeder2005_u_on_y", "X_lidtop", "u_cube")]
+    v = [(x, -u) for x, u in profile("albensoeder2005_u_on_y.csv", "X_lidtop", "u_cube")]
     return {
-        "Albensoeder & Kuhlmann 2005": {"u": table("albensoeder2005_v_on_x", "Y_lidtop", "v_cube"), "v": v},
+        "Albensoeder & Kuhlmann 2005": {"u": profile("albensoeder2005_v_on_x.csv", "Y_lidtop", "v_cube"), "v": v},
     }
 
 
@@ -73,7 +71,7 @@ def probe_name(component, s):
     return f"{component}-{s}".replace(".", "_")
 
 
-def write_case(case, cells, end, out):
+def text_of(case, cells, end):
     depth, layers, ends = (1.0 / cells, 1, "symmetry") if case == "plane" else (0.5, cells // 2, "wall")
     text = CASE.format(end=end, cells=cells, depth=depth, layers=layers, ends=ends)
     middle = 0.5 * depth if case == "plane" else 0.5
@@ -84,24 +82,17 @@ def write_case(case, cells, end, out):
                 name = probe_name(component, s)
                 if f'"{name}"' not in text:
                     text += f'[[output.probe]]\nname = "{name}"\npoint = {place}\n'
-    out.mkdir(parents=True, exist_ok=True)
-    (out / "case.toml").write_text(text)
+    return text
 
 
 def probe(run, component, s):
     """Last value, and how far it moved over the last tenth of the run."""
-    with open(run / f"probe-{probe_name(component, s)}.csv") as file:
-        rows = list(csv.reader(file))
-    column = next(n for n, head in enumerate(rows[0]) if head.startswith("velocity_" + "xy"["uv".index(component)]))
-    return float(rows[-1][column]), abs(float(rows[-1][column]) - float(rows[-len(rows) // 10][column]))
+    velocity = columns(run / f"probe-{probe_name(component, s)}.csv")["velocity_" + "xy"["uv".index(component)]]
+    return velocity[-1], abs(velocity[-1] - velocity[-len(velocity) // 10])
 
 
 def compare(case, cells, end, out, axes):
-    folder = out / f"{case}-{cells}"
-    run = folder / "run"
-    if not (run / "summary.json").exists():
-        write_case(case, cells, end, folder)
-        subprocess.run([root / "luff", "run", folder / "case.toml", "--out", run], check=True)
+    run = run_text(text_of(case, cells, end), out / f"{case}-{cells}")
     for source, profiles in references(case).items():
         for component, points in profiles.items():
             computed = [(s, value, *probe(run, component, s)) for s, value in inside(points)]

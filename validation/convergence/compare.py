@@ -13,8 +13,7 @@ Runs into DIR/<case>-<cells per length> (default validation/convergence/results)
 writes DIR/convergence.png.
 """
 import argparse
-import csv
-import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -24,7 +23,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
+sys.path.insert(0, str(here.parent))
+from comparison import columns, root, run
+
 ratio = 1.5
 levels = (16, 24, 36)  # cells per length
 windows = {"flag-2d": ((16.5, 24.0), (24.0, 42.0)), "inverted-flag-2d": ((12.0, 40.0),)}
@@ -43,20 +44,11 @@ def settings(cells):
     ]
 
 
-def run(case, cells, out):
-    if (out / "summary.json").exists():
-        return
+def history(case, cells, out):
+    """Time and y of the tip; of a run that fails, up to there."""
     changes = settings(cells) + [f"time.end={windows[case][-1][1]}"]
-    command = [root / "luff", "run", root / "cases" / case / "case.toml", "--out", out]
-    # A run that fails has its table up to there.
-    subprocess.run(command + [word for change in changes for word in ("--set", change)], check=False)
-
-
-def history(out):
-    with open(out / "probe-tip.csv") as file:
-        table = list(csv.reader(file))
-    data = np.array([[float(v) for v in row[:3]] for row in table[1:]])
-    return data[:, 0], data[:, 2]
+    tip = columns(run(root / "cases" / case / "case.toml", out, changes, check=False) / "probe-tip.csv")
+    return tip["t"], tip["displacement_y"]
 
 
 def rises(t, y):
@@ -93,9 +85,7 @@ def main():
     for case, axis in zip(arguments.cases, axes[:, 0]):
         found, ends = {window: [] for window in windows[case]}, []
         for cells in levels:
-            out = arguments.out / f"{case}-{cells}"
-            run(case, cells, out)
-            t, y = history(out)
+            t, y = history(case, cells, arguments.out / f"{case}-{cells}")
             for window in found:
                 found[window].append(swing(t, y, window))
             ends.append(t[-1])

@@ -8,8 +8,7 @@ Runs cases/cylinder/case.toml with other viscosities and spacings into DIR/re<RE
 it is there already, prints a table, and writes DIR/cylinder.png. With the spacing all cells get finer, in the same proportion.
 """
 import argparse
-import csv
-import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -21,15 +20,15 @@ import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
+sys.path.insert(0, str(here.parent))
+from comparison import columns, published, root, run
+
 depth = 0.04
-columns = {"Cd_mean": "C_d", "Cd_amp": "C_d amplitude", "Cl_amp": "C_l amplitude", "St": "St", "L_over_D": "wake length/D"}
+quantities = {"Cd_mean": "C_d", "Cd_amp": "C_d amplitude", "Cl_amp": "C_l amplitude", "St": "St", "L_over_D": "wake length/D"}
 
 
 def references(re):
-    with open(root / "validation" / "data" / "cylinder_static.csv") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    return [row for row in rows if float(row["Re"]) == re]
+    return [row for row in published("cylinder_static.csv") if float(row["Re"]) == re]
 
 
 def finer(spacing):
@@ -40,22 +39,14 @@ def finer(spacing):
         f"body.cylinder.mesh.divisions=[{round(96 * factor)}, 1]"]
 
 
-def run(re, spacing, out, settings):
-    if (out / "summary.json").exists():
-        return
-    changes = [f"fluid.viscosity={1 / re}", 'pressure.tolerance="fast"'] + finer(spacing)
-    changes += (["time.end=80"] if re < 47 else []) + settings
-    command = [root / "luff", "run", root / "cases" / "cylinder" / "case.toml", "--out", out]
-    subprocess.run(command + [word for change in changes for word in ("--set", change)], check=True)
+def changes(re, spacing):
+    return [f"fluid.viscosity={1 / re}", 'pressure.tolerance="fast"'] + finer(spacing) + (["time.end=80"] if re < 47 else [])
 
 
 def coefficients(out):
-    with open(out / "forces-cylinder.csv") as file:
-        table = list(csv.reader(file))
-    data = np.array([[float(v) for v in row] for row in table[1:]])
-    column = {name.split(" ")[0]: n for n, name in enumerate(table[0])}
+    forces = columns(out / "forces-cylinder.csv")
     scale = 1 / (0.5 * depth)
-    return data[:, 0], scale * data[:, column["force_x"]], scale * data[:, column["force_y"]]
+    return forces["t"], scale * forces["force_x"], scale * forces["force_y"]
 
 
 def wake_length(out):
@@ -105,12 +96,12 @@ def main():
     print("Re | quantity | luff | published | from")
     for axis, re in zip(axes[:, 0], arguments.re):
         out = arguments.out / f"re{re:g}-{arguments.spacing:g}"
-        run(re, arguments.spacing, out, arguments.settings)
+        run(root / "cases" / "cylinder" / "case.toml", out, changes(re, arguments.spacing) + arguments.settings)
         values, (t, drag, lift) = measured(re, out)
         for key, value in values.items():
             rows = [row for row in references(re) if row[key]]
-            published = ", ".join(row[key] for row in rows)
-            print(f"{re:g} | {columns[key]} | {value:.4f} | {published} | {'; '.join(row['source'] for row in rows)}")
+            theirs = ", ".join(row[key] for row in rows)
+            print(f"{re:g} | {quantities[key]} | {value:.4f} | {theirs} | {'; '.join(row['source'] for row in rows)}")
         axis.plot(t, drag, label="$C_d$")
         axis.plot(t, lift, label="$C_l$")
         axis.set(title=f"Re = {re:g}", xlabel="t U/D", ylim=(-1, 2))

@@ -15,7 +15,7 @@ Writes DIR/dean.png (default validation/dean/results) and prints a table.
 """
 import argparse
 import math
-import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -26,7 +26,9 @@ import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
+sys.path.insert(0, str(here.parent))
+from comparison import run_text
+
 A, R = 0.5, 10.0
 
 CASE = """title = "Developed flow in a coiled pipe, De near {dean}"
@@ -85,19 +87,14 @@ def mean_velocity(file):
     return float((along * volume / r).sum()) / (2.0 * math.pi) / (math.pi * A**2)
 
 
-def run(dean, cells, along, out):
-    folder = out / f"de-{dean}-{cells}-{along}"
+def computed(dean, cells, along, out):
     viscosity = 2.0 * A / (dean / math.sqrt(A / R))
     G = 8.0 * viscosity / A**2 * white(dean)
-    if not (folder / "run" / "summary.json").exists():
-        # Six times 1/rate of the slowest decay of axial velocity in a straight pipe, rate = 5.78 nu/a^2.
-        end = 6.0 * A**2 / (5.78 * viscosity)
-        start = "2*(1-4*((sqrt(x^2+y^2)-10)^2+z^2))"
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / "case.toml").write_text(CASE.format(dean=dean, end=end, every=end / 4, viscosity=viscosity, start=start,
-                                                      force=G * R, cells=cells, along=along))
-        subprocess.run([root / "luff", "run", folder / "case.toml", "--out", folder / "run"], check=True)
-    files = sorted((folder / "run" / "fields").glob("fields_*.vts"))
+    # Six times 1/rate of the slowest decay of axial velocity in a straight pipe, rate = 5.78 nu/a^2.
+    end = 6.0 * A**2 / (5.78 * viscosity)
+    start = "2*(1-4*((sqrt(x^2+y^2)-10)^2+z^2))"
+    text = CASE.format(dean=dean, end=end, every=end / 4, viscosity=viscosity, start=start, force=G * R, cells=cells, along=along)
+    files = sorted((run_text(text, out / f"de-{dean}-{cells}-{along}") / "fields").glob("fields_*.vts"))
     before, U = mean_velocity(files[-2]), mean_velocity(files[-1])
     return 2.0 * A * U / viscosity * math.sqrt(A / R), G * A**2 / (8.0 * viscosity * U), abs(U - before) / U
 
@@ -111,7 +108,7 @@ def main():
     options = parser.parse_args()
     points = []
     for dean in options.deans:
-        found, ratio, drift = run(dean, options.cells, options.along, options.out)
+        found, ratio, drift = computed(dean, options.cells, options.along, options.out)
         points.append((found, ratio))
         print(f"De {found:.1f} | {options.cells} cells across, {options.along} along | f_c/f_s {ratio:.4f} | White {white(found):.4f} | "
               f"{100 * (ratio / white(found) - 1):+.2f} % | U moved by {100 * drift:.2f} % over the last quarter")

@@ -9,8 +9,7 @@ Runs cases/flexible-plate/case.toml with --resolution F (default 1) up to T (def
 Values are means over the last two thirds of the run, with the largest departure from them in it.  Drag is that of half a plate, doubled.
 """
 import argparse
-import csv
-import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -20,31 +19,15 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
+sys.path.insert(0, str(here.parent))
+from comparison import columns, published, root, run
+
 length = 5.0
-
-
-def references():
-    with open(root / "validation" / "data" / "flexible_plate_crossflow.csv") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
-
-
-def run(level, end, out):
-    if not (out / "summary.json").exists():
-        case = root / "cases" / "flexible-plate" / "case.toml"
-        subprocess.run([root / "luff", "run", case, "--resolution", level, "--set", f"time.end={end}", "--out", out], check=True)
-
-
-def table(path):
-    with open(path) as file:
-        rows = list(csv.reader(file))
-    data = np.array([[float(v) if v else np.nan for v in row] for row in rows[1:]])
-    return {name.split(" ")[0]: data[:, n] for n, name in enumerate(rows[0])}
 
 
 def histories(out):
     """Drag by traction, place of the tip, all over time; and drag by momentum where it was audited."""
-    forces, tip, audit = table(out / "forces-plate.csv"), table(out / "probe-tip.csv"), table(out / "audit.csv")
+    forces, tip, audit = (columns(out / f"{name}.csv") for name in ("forces-plate", "probe-tip", "audit"))
     scale = 2 / (0.5 * length)
     found = {"Cd": scale * forces["force_x"], "Dx_over_b": tip["displacement_x"], "Dz_over_b": -tip["displacement_z"]}
     return tip["t"], found, (audit["t"], scale * audit["by_momentum_plate_x"])
@@ -56,25 +39,25 @@ def main():
     parser.add_argument("--levels", nargs="+", default=["1"])
     parser.add_argument("--end", type=float, default=30.0)
     arguments = parser.parse_args()
-    published = references()
+    references = published("flexible_plate_crossflow.csv")
     figure, axes = plt.subplots(3, 1, figsize=(8, 9), sharex=True)
-    print("cells per width | quantity | luff | +- | " + " | ".join(row["source"] for row in published) + " | differences")
+    print("cells per width | quantity | luff | +- | " + " | ".join(row["source"] for row in references) + " | differences")
     for level in arguments.levels:
         cells = f"{10 * float(level):.1f}"
-        out = arguments.out / cells
-        run(level, arguments.end, out)
+        case = root / "cases" / "flexible-plate" / "case.toml"
+        out = run(case, arguments.out / cells, [f"time.end={arguments.end}"], ["--resolution", level])
         t, found, (instants, by_momentum) = histories(out)
         late = t > t[-1] / 3
         for axis, (key, values) in zip(axes, found.items()):
             mean, swing = np.mean(values[late]), np.max(np.abs(values[late] - np.mean(values[late])))
-            theirs = [float(row[key]) for row in published]
+            theirs = [float(row[key]) for row in references]
             print(f"{cells} | {key} | {mean:.3f} | {swing:.3f} | " + " | ".join(map(str, theirs)) + " | " +
                   ", ".join(f"{100 * (mean / value - 1):+.1f} %" for value in theirs))
             axis.plot(t, values, label=f"b/{cells}")
             axis.set_ylabel(key)
         print(f"{cells} | Cd by momentum | {np.mean(by_momentum[instants > t[-1] / 3]):.3f} | | | |")
     for axis, key in zip(axes, found):
-        for row, style in zip(published, ("k--", "k:")):
+        for row, style in zip(references, ("k--", "k:")):
             axis.plot([0, t[-1]], 2 * [float(row[key])], style, label=row["source"])
     axes[0].set_ylim(0.0, 3.0)
     axes[0].legend()

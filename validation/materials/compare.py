@@ -11,6 +11,7 @@ validation/materials/results). The materials are those of materials.toml.
 import argparse
 import csv
 import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -20,13 +21,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
-data = root / "validation/data"
+sys.path.insert(0, str(here.parent))
+from comparison import published, root
+
 build = root / "build/release"
-
-
-def rows(lines):
-    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
 def computed():
@@ -37,15 +35,10 @@ def computed():
     program = build / "validation/validation_materials_biaxial"
     table = subprocess.run([program, here / "materials.toml"], check=True, capture_output=True, text=True).stdout
     curves = {}
-    for row in rows(table.splitlines()):
+    for row in csv.DictReader(table.splitlines()):
         numbers = [float(row[k]) for k in ("stretch_along", "stretch_across", "stress_along", "stress_across")]
         curves.setdefault((row["material"], row["protocol"]), []).append(numbers)
     return {key: np.array(values).T for key, values in curves.items()}
-
-
-def published(name):
-    with open(data / name) as file:
-        return rows(file)
 
 
 def compare_with_table(curves):

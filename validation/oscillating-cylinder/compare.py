@@ -8,8 +8,7 @@ Runs cases/oscillating-cylinder/case.toml into DIR (default validation/oscillati
 already, prints a table, and writes DIR/oscillating-cylinder.png.
 """
 import argparse
-import csv
-import subprocess
+import sys
 import xml.etree.ElementTree
 from pathlib import Path
 
@@ -22,21 +21,11 @@ import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
+sys.path.insert(0, str(here.parent))
+from comparison import columns, published, root, run
+
 depth = 0.04
 period = 5.0
-
-
-def reference(name):
-    with open(root / "validation" / "data" / name) as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
-
-
-def forces(out):
-    with open(out / "forces-cylinder.csv") as file:
-        table = list(csv.reader(file))
-    data = np.array([[float(v) for v in row] for row in table[1:]])
-    return data[:, 0], data[:, 1] / (0.5 * depth)
 
 
 def morison(phase, drag):
@@ -47,19 +36,19 @@ def morison(phase, drag):
 
 
 def compare_force(axis, t, drag):
-    rows = reference("dutsch1998_inline_force_KC5_Re100.csv")
+    rows = published("dutsch1998_inline_force_KC5_Re100.csv")
     points = np.array([[float(row["t_over_T"]), float(row["Cd"])] for row in rows])
     points = points[points[:, 0].argsort()]
     phase = np.linspace(0, 1, 400, endpoint=False)
-    published = np.interp(phase, points[:, 0], points[:, 1], period=1)
+    measured = np.interp(phase, points[:, 0], points[:, 1], period=1)
     last = np.interp(t[-1] - period + period * phase, t, drag)
     print("quantity | luff | published | difference")
     for n in range(round(t[-1] / (0.5 * period))):
         half = (t >= 0.5 * period * n) & (t < 0.5 * period * (n + 1))
         peak = abs(drag[half]).max()
-        print(f"peak of half period {n + 1} | {peak:.3f} | {published.max():.3f} | {100 * (peak / published.max() - 1):+.1f} %")
-    print(f"rms of the difference, last period, over the peak | | | {100 * np.sqrt(np.mean((last - published) ** 2)) / published.max():.1f} %")
-    for name, ours, theirs in zip(("C_d", "C_m"), morison(phase, last), morison(phase, published)):
+        print(f"peak of half period {n + 1} | {peak:.3f} | {measured.max():.3f} | {100 * (peak / measured.max() - 1):+.1f} %")
+    print(f"rms of the difference, last period, over the peak | | | {100 * np.sqrt(np.mean((last - measured) ** 2)) / measured.max():.1f} %")
+    for name, ours, theirs in zip(("C_d", "C_m"), morison(phase, last), morison(phase, measured)):
         print(f"Morison's {name} | {ours:.3f} | {theirs:.3f} | {100 * (ours / theirs - 1):+.1f} %")
     axis.plot(phase, last, label="luff")
     axis.plot(points[:, 0], points[:, 1], "k.", ms=3, label="Duetsch et al. 1998")
@@ -82,7 +71,7 @@ def fields_at(out, wanted):
 
 
 def compare_profiles(axes, out, end):
-    rows = reference("dutsch1998_profiles.csv")
+    rows = published("dutsch1998_profiles.csv")
     differences = {"u": [], "v": []}
     for axis, phase in zip(axes, (180, 210, 330)):
         x, y, velocity = fields_at(out, end - period + period * phase / 360)
@@ -107,11 +96,9 @@ def main():
     parser.add_argument("--out", type=Path, default=here / "results")
     parser.add_argument("--set", dest="settings", action="append", default=[])
     arguments = parser.parse_args()
-    out = arguments.out
-    if not (out / "summary.json").exists():
-        command = [root / "luff", "run", root / "cases" / "oscillating-cylinder" / "case.toml", "--out", out]
-        subprocess.run(command + [word for change in arguments.settings for word in ("--set", change)], check=True)
-    t, drag = forces(out)
+    out = run(root / "cases" / "oscillating-cylinder" / "case.toml", arguments.out, arguments.settings)
+    forces = columns(out / "forces-cylinder.csv")
+    t, drag = forces["t"], forces["force_x"] / (0.5 * depth)
     figure, axes = plt.subplots(1, 4, figsize=(15, 4))
     compare_force(axes[0], t, drag)
     compare_profiles(axes[1:], out, t[-1])

@@ -11,10 +11,10 @@ and what it converges to: u_n = u + c h_n^p for n = 1, 2, 3. Writes
 DIR/<name>.png (default validation/shell-benchmarks/results). A finished run in DIR is used again.
 """
 import argparse
-import csv
 import json
 import math
 import subprocess
+import sys
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -26,7 +26,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
+sys.path.insert(0, str(here.parent))
+from comparison import columns, published, root
 
 
 @dataclass
@@ -49,21 +50,16 @@ class Benchmark:
 
 
 def table(file, column):
-    with open(root / "validation" / "data" / file) as lines:
-        rows = csv.DictReader(line for line in lines if not line.startswith("#"))
-        return [(float(row["load_fraction"]), float(row[column])) for row in rows]
+    return [(float(row["load_fraction"]), float(row[column])) for row in published(file)]
 
 
 def single(name):
-    with open(root / "validation" / "data" / "linear_shells.csv") as lines:
-        rows = csv.DictReader(line for line in lines if not line.startswith("#"))
-        return [(1.0, float(row["displacement"])) for row in rows if row["benchmark"] == name]
+    return [(1.0, float(row["displacement"])) for row in published("linear_shells.csv") if row["benchmark"] == name]
 
 
 def first_maximum(thickness):
-    with open(root / "validation" / "data" / "sze2004_hinged_roofs.csv") as lines:
-        rows = csv.DictReader(line for line in lines if not line.startswith("#"))
-        return next((float(r["load_fraction"]), float(r["minus_W_C"])) for r in rows if float(r["thickness"]) == thickness)
+    rows = published("sze2004_hinged_roofs.csv")
+    return next((float(r["load_fraction"]), float(r["minus_W_C"])) for r in rows if float(r["thickness"]) == thickness)
 
 
 def roll_up(component):
@@ -182,11 +178,9 @@ def run(name, settings, out):
 
 def path_of(curve, out):
     """Load factors and displacements along the path that was followed, from the origin."""
-    with open(out / f"probe-{curve.probe}.csv") as file:
-        rows = list(csv.DictReader(file))
-    column = f"displacement_{curve.component} [length]"
-    path = [(0.0, 0.0)] + [(float(row["load_factor"]), curve.scale * float(row[column])) for row in rows]
-    return np.array(path)
+    probe = columns(out / f"probe-{curve.probe}.csv")
+    moved = curve.scale * probe[f"displacement_{curve.component}"]
+    return np.vstack([(0.0, 0.0), np.stack([probe["load_factor"], moved], axis=1)])
 
 
 def computed_at(path, loads):
@@ -209,14 +203,14 @@ def report(name, mesh, curve, summary, seconds, out):
         print(f"{name} | {mesh} | {curve.label} | {summary['state']} at {path[:, 0].max():.3g} | | {path[-1, 1]:.5g} | | | "
               f"{seconds:.0f} s", flush=True)
         return path, path[-1, 1]
-    loads, published = np.array(curve.published).T
+    loads, theirs = np.array(curve.published).T
     computed = computed_at(path, loads)
     reached = ~np.isnan(computed)
-    worst = np.max(np.abs(computed - published)[reached]) / np.max(np.abs(published)) if reached.any() else math.nan
+    worst = np.max(np.abs(computed - theirs)[reached]) / np.max(np.abs(theirs)) if reached.any() else math.nan
     last = computed[-1]
     print(
         f"{name} | {mesh} | {curve.label} | {summary['state']} at {path[:, 0].max():.3g} | {100 * worst:.2f} % | "
-        f"{last:.5g} | {published[-1]:.5g} | {100 * (last - published[-1]) / np.max(np.abs(published)):+.2f} % | "
+        f"{last:.5g} | {theirs[-1]:.5g} | {100 * (last - theirs[-1]) / np.max(np.abs(theirs)):+.2f} % | "
         f"{seconds:.0f} s",
         flush=True,
     )
@@ -264,9 +258,9 @@ def report_order(name, mesh, label, values, divisions, reference, scale):
         print(f"{name} | {mesh} | order of {what} | differences {middle - coarse:+.2e}, {fine - middle:+.2e}: none", flush=True)
         return
     order, limit = found
-    published = " | " if reference is None else f"{reference:.5g} | {100 * (limit - reference) / scale:+.2f} %; "
+    beside = " | " if reference is None else f"{reference:.5g} | {100 * (limit - reference) / scale:+.2f} %; "
     print(
-        f"{name} | {mesh} | order of {what} | {order:.2f} | converges to {limit:.6g} | {published}"
+        f"{name} | {mesh} | order of {what} | {order:.2f} | converges to {limit:.6g} | {beside}"
         f"finest mesh less that {100 * (values[-1] - limit) / scale:+.3f} %",
         flush=True,
     )
@@ -308,8 +302,8 @@ def compare(name, benchmark, out):
         axis.plot(benchmark.limit[1], benchmark.limit[0], "o", color="k", fillstyle="none", label="first maximum, published")
     for curve in benchmark.curves:
         if curve.published:
-            loads, published = zip(*curve.published)
-            axis.plot(published, loads, "o", color="k", fillstyle="none", label=f"{curve.label}, published")
+            loads, theirs = zip(*curve.published)
+            axis.plot(theirs, loads, "o", color="k", fillstyle="none", label=f"{curve.label}, published")
     axis.set(title=name, xlabel="displacement", ylabel="load factor")
     axis.legend(fontsize=7)
     figure.tight_layout()

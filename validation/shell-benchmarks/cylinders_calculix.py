@@ -24,7 +24,8 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-root = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from comparison import published
 
 
 @dataclass
@@ -52,10 +53,8 @@ class Problem:
     table: str
     curves: list
 
-    def published(self):
-        with open(root / "validation" / "data" / self.table) as lines:
-            rows = csv.DictReader(line for line in lines if not line.startswith("#"))
-            return [(float(r["load_fraction"]), *(float(r[c.column]) for c in self.curves)) for r in rows]
+    def points(self):
+        return [(float(r["load_fraction"]), *(float(r[c.column]) for c in self.curves)) for r in published(self.table)]
 
 
 PROBLEMS = {
@@ -223,7 +222,7 @@ def main():
     problem = PROBLEMS[options.problem]
     problem.increment = options.increment or problem.increment
     problem.farthest = math.copysign(options.until, problem.force) if options.until else problem.farthest
-    table = problem.published()
+    table = problem.points()
     grid = Grid(problem, options.cells, options.grading, options.element == "C3D20R")
     corners = write_job(options.folder / "job.inp", grid, options.element, options.control, options.stiffened,
                         [row[0] for row in table])
@@ -236,10 +235,10 @@ def main():
     print(f"{options.problem}, {options.element}, {options.cells[0]} x {options.cells[1]}, grading {options.grading}, "
           f"{options.control} control, moduli across the thickness times {options.stiffened:g}")
     print("load", *(f"{curve.label} | published" for curve in problem.curves), sep=" | ")
-    for load, *published in table:
+    for load, *theirs in table:
         computed = at_load(path, load)
         if computed:
-            print(load, *(f"{u:.4f} | {p}" for u, p in zip(computed, published)), sep=" | ")
+            print(load, *(f"{u:.4f} | {p}" for u, p in zip(computed, theirs)), sep=" | ")
     if status != 0:
         sys.exit(f"CalculiX stopped; see {options.folder / 'job.log'}")
 

@@ -9,8 +9,7 @@ At Re = 100 it is steady; at Re = 300 the initial velocity has a cross-stream pa
 Writes DIR/sphere.png (default validation/sphere/results) and prints a table.
 """
 import argparse
-import csv
-import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -22,9 +21,11 @@ import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
+sys.path.insert(0, str(here.parent))
+from comparison import columns, published, run_text
+
 REAR, CENTRE_Y = 0.503, 0.007
-columns = {"Cd_mean": "C_d", "Cl_mean": "C_l", "St": "St", "L_over_D": "wake length/D"}
+quantities = {"Cd_mean": "C_d", "Cl_mean": "C_l", "St": "St", "L_over_D": "wake length/D"}
 
 CASE = """title = "Sphere in a stream, Re = {reynolds}"
 [time]
@@ -60,32 +61,22 @@ tolerance = "fast"
 
 
 def references(re):
-    with open(root / "validation" / "data" / "sphere_static.csv") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    return [row for row in rows if float(row["Re"]) == re]
+    return [row for row in published("sphere_static.csv") if float(row["Re"]) == re]
 
 
-def run(re, spacing, wake, end, out):
-    if (out / "run" / "summary.json").exists():
-        return
+def text_of(re, spacing, wake, end):
     equal = [round(length / spacing) for length in (0.8 + wake, 1.52, 0.76)]
     finer = 0.04 / spacing  # cells in the stretched parts go with it: the same growth in less of a cell
-    text = CASE.format(reynolds=f"{re:g}", viscosity=1 / re, end=end, every=10.0, nudge=0.0 if re < 210 else 0.2,
+    return CASE.format(reynolds=f"{re:g}", viscosity=1 / re, end=end, every=10.0, nudge=0.0 if re < 210 else 0.2,
                        spacing=spacing, wake=wake, along=equal[0] + round(76 * finer), high=equal[1] + round(40 * finer),
                        deep=equal[2] + round(20 * finer))
-    out.mkdir(parents=True, exist_ok=True)
-    (out / "case.toml").write_text(text)
-    subprocess.run([root / "luff", "run", out / "case.toml", "--out", out / "run"], check=True)
 
 
 def coefficients(out):
     """t, C_d, C_l of the whole sphere: twice what the half of it feels."""
-    with open(out / "forces-sphere.csv") as file:
-        table = list(csv.reader(file))
-    data = np.array([[float(v) for v in row] for row in table[1:]])
-    column = {name.split(" ")[0]: n for n, name in enumerate(table[0])}
+    forces = columns(out / "forces-sphere.csv")
     scale = 2 / (0.5 * np.pi / 4)
-    return data[:, 0], scale * data[:, column["force_x"]], scale * data[:, column["force_y"]]
+    return forces["t"], scale * forces["force_x"], scale * forces["force_y"]
 
 
 def wake_length(out):
@@ -132,12 +123,11 @@ def main():
     figure, axes = plt.subplots(len(arguments.re), 1, figsize=(8, 3 * len(arguments.re)), squeeze=False)
     print("Re | quantity | luff | published | from")
     for axis, re in zip(axes[:, 0], arguments.re):
-        out = arguments.out / f"re{re:g}-{arguments.spacing:g}"
-        run(re, arguments.spacing, arguments.wake, arguments.end or (40.0 if re < 210 else 110.0), out)
-        values, (t, drag, lift) = measured(re, out / "run")
+        text = text_of(re, arguments.spacing, arguments.wake, arguments.end or (40.0 if re < 210 else 110.0))
+        values, (t, drag, lift) = measured(re, run_text(text, arguments.out / f"re{re:g}-{arguments.spacing:g}"))
         for key, value in values.items():
             rows = [row for row in references(re) if row[key]]
-            print(f"{re:g} | {columns[key]} | {value:.4f} | {', '.join(row[key] for row in rows)} | "
+            print(f"{re:g} | {quantities[key]} | {value:.4f} | {', '.join(row[key] for row in rows)} | "
                   f"{'; '.join(row['source'] for row in rows)}")
         axis.plot(t, drag, label="$C_d$")
         axis.plot(t, lift, label="$C_l$")

@@ -9,8 +9,7 @@ validation/spherical-shell/results) what is not there already, prints a table, a
 compared is a = 2/3 (pole - equator), the amplitude of the second Legendre polynomial; see theory.py.
 """
 import argparse
-import csv
-import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -19,25 +18,16 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from theory import root
+import theory
 
 here = Path(__file__).resolve().parent
-top = here.parent.parent
-
-
-def run(level, out):
-    if not (out / "summary.json").exists():
-        case = top / "cases" / "spherical-shell" / "case.toml"
-        subprocess.run([top / "luff", "run", case, "--resolution", level, "--out", out], check=True)
+sys.path.insert(0, str(here.parent))
+from comparison import columns, root, run
 
 
 def history(out):
-    places = []
-    for name, column in (("pole", 3), ("equator", 1)):
-        with open(out / f"probe-{name}.csv") as file:
-            data = np.array([[float(v) for v in row] for row in list(csv.reader(file))[1:]])
-        places.append(data[:, column])
-    return data[:, 0], 2 / 3 * (places[0] - places[1])
+    pole, equator = (columns(out / f"probe-{name}.csv") for name in ("pole", "equator"))
+    return pole["t"], 2 / 3 * (pole["displacement_z"] - equator["displacement_x"])
 
 
 def swing(t, a):
@@ -56,14 +46,12 @@ def main():
     parser.add_argument("--out", type=Path, default=here / "results")
     parser.add_argument("--levels", nargs="+", default=["0.7", "1", "1.43"])
     arguments = parser.parse_args()
-    s, inviscid = root(n=2, radius=1.0, thickness=0.02, young=1000.0, poisson=0.3, shell_density=5.0, density=1.0, viscosity=0.02)
+    s, inviscid = theory.root(n=2, radius=1.0, thickness=0.02, young=1000.0, poisson=0.3, shell_density=5.0, density=1.0, viscosity=0.02)
     print(f"without viscosity the frequency were {inviscid / (2 * np.pi):.4f}")
     print("cells per radius | quantity | luff | theory | difference")
     figure, axis = plt.subplots(figsize=(8, 4))
     for level in arguments.levels:
-        out = arguments.out / level
-        run(level, out)
-        t, a = history(out)
+        t, a = history(run(root / "cases" / "spherical-shell" / "case.toml", arguments.out / level, words=["--resolution", level]))
         late = t > 1.0  # half a unit after the push has ended
         decay, frequency = swing(t[late], a[late])
         for name, ours, theirs in (("frequency", frequency / (2 * np.pi), s.imag / (2 * np.pi)), ("decay rate", decay, -s.real)):

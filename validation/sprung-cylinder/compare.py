@@ -11,8 +11,7 @@ Runs cases/sprung-cylinder/case.toml into DIR (default validation/sprung-cylinde
 table, and writes DIR/sprung-cylinder.png.
 """
 import argparse
-import csv
-import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -22,7 +21,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
+sys.path.insert(0, str(here.parent))
+from comparison import columns, root, run
+
 viscosity, depth, density, stiffness, gravity = 0.02, 0.025, 0.5, 1.410523, 2.3
 
 
@@ -62,14 +63,9 @@ def main():
     parser.add_argument("--out", type=Path, default=here / "results")
     parser.add_argument("--set", dest="settings", action="append", default=[])
     arguments = parser.parse_args()
-    out = arguments.out
-    if not (out / "summary.json").exists():
-        command = [root / "luff", "run", root / "cases" / "sprung-cylinder" / "case.toml", "--out", out]
-        subprocess.run(command + [word for change in arguments.settings for word in ("--set", change)], check=True)
-    with open(out / "motion-cylinder.csv") as file:
-        table = list(csv.reader(file))
-    data = np.array([[float(v) for v in row] for row in table[1:]])
-    t, y = data[:, 0], data[:, 2] - 0.007
+    out = run(root / "cases" / "sprung-cylinder" / "case.toml", arguments.out, arguments.settings)
+    motion = columns(out / "motion-cylinder.csv")
+    t, y = motion["t"], motion["centre_y"] - 0.007
 
     s = theory()
     late = t > 0.5  # the start is no oscillation yet

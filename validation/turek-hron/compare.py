@@ -13,8 +13,7 @@ Means and amplitudes are (largest + smallest)/2 and (largest - smallest)/2 of ea
 the periods of the last `window` seconds.
 """
 import argparse
-import csv
-import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -24,7 +23,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
+sys.path.insert(0, str(here.parent))
+from comparison import columns, published, root, run
+
 depth = 0.005
 inflow = 'boundary.x_min.value=["(t < 1 ? 0.5*(1 - cos(pi*t)) : 1)*6*y*(0.41 - y)/0.1681", 0.0, 0.0]'
 sheet = ('body.beam.mesh={ shape = "rectangle", origin = [0.25, 0.2, 0], a = [0.35, 0, 0], b = [0, 0, 0.005], divisions = [70, 1] }')
@@ -34,44 +35,24 @@ cases = {
     "CFD3-sheet": {"file": rigid, "published": "CFD3", "set": [sheet, "body.beam.closed=false"], "window": 2.0},
     "FSI3": {"file": elastic, "published": "FSI3", "set": [], "window": 1.0},
     "FSI3-sheet": {"file": elastic, "published": "FSI3", "set": ['shell.beam.wetted="middle"'], "window": 1.0},
-    "FSI2": {"file": elastic, "published": "FSI2", "set": [inflow, "shell.beam.density=10000", "shell.beam.material.young=1.4e6", "time.end=12", "time.step=0.004"],
-             "window": 3.0},
+    "FSI2": {"file": elastic, "published": "FSI2", "window": 3.0,
+             "set": [inflow, "shell.beam.density=10000", "shell.beam.material.young=1.4e6", "time.end=12", "time.step=0.004"]},
 }
-
-
-def references():
-    with open(root / "validation" / "data" / "turek_hron.csv") as file:
-        return {row["case"]: row for row in csv.DictReader(line for line in file if not line.startswith("#"))}
-
-
-def run(name, out, settings):
-    if (out / "summary.json").exists():
-        return
-    command = [root / "luff", "run", cases[name]["file"], "--out", out]
-    changes = cases[name]["set"] + settings
-    subprocess.run(command + [word for change in changes for word in ("--set", change)], check=True)
-
-
-def table(path):
-    with open(path) as file:
-        rows = list(csv.reader(file))
-    data = np.array([[float(v) if v else np.nan for v in row] for row in rows[1:]])
-    return {name.split(" ")[0]: data[:, n] for n, name in enumerate(rows[0])}
 
 
 def histories(out):
     """Displacement of the tip in mm where it moves, drag and lift of cylinder and beam together in N/m."""
-    beam, cylinder = (table(out / f"forces-{name}.csv") for name in ("beam", "cylinder"))
+    beam, cylinder = (columns(out / f"forces-{name}.csv") for name in ("beam", "cylinder"))
     found = {"drag": (beam["force_x"] + cylinder["force_x"]) / depth, "lift": (beam["force_y"] + cylinder["force_y"]) / depth}
     if (out / "probe-tip.csv").exists():
-        tip = table(out / "probe-tip.csv")
+        tip = columns(out / "probe-tip.csv")
         found = {"ux": 1e3 * tip["displacement_x"], "uy": 1e3 * tip["displacement_y"]} | found
     return beam["t"], found
 
 
 def audited_drag(out, start):
     """Mean drag by the momentum of the fluid; the boxes around beam and cylinder overlap: both are of both together."""
-    audit = table(out / "audit.csv")
+    audit = columns(out / "audit.csv")
     late = audit["t"] >= start
     return np.mean(audit["by_momentum_cylinder_x"][late]) / depth
 
@@ -101,10 +82,7 @@ def swing(t, y, periods):
 
 def dry(out):
     """The beam alone under its weight: CSM1."""
-    path = out / "csm1"
-    if not (path / "summary.json").exists():
-        subprocess.run([root / "luff", "run", here / "csm1.toml", "--out", path], check=True)
-    tip = table(path / "probe-tip.csv")
+    tip = columns(run(here / "csm1.toml", out / "csm1") / "probe-tip.csv")
     return {"ux": 1e3 * tip["displacement_x"][-1], "uy": 1e3 * tip["displacement_y"][-1]}
 
 
@@ -119,19 +97,19 @@ def main():
     parser.add_argument("--out", type=Path, default=here / "results")
     parser.add_argument("--set", dest="settings", action="append", default=[])
     arguments = parser.parse_args()
-    published = references()
+    references = {row["case"]: row for row in published("turek_hron.csv")}
     print("case | quantity | luff | published | difference")
     for key, ours in dry(arguments.out).items():
-        row("CSM1", f"{key}, mm", ours, published["CSM1"][f"{key}_mean_mm"])
+        row("CSM1", f"{key}, mm", ours, references["CSM1"][f"{key}_mean_mm"])
     figure, axes = plt.subplots(len(arguments.names), 1, figsize=(9, 3.5 * len(arguments.names)), squeeze=False)
     for name, axis in zip(arguments.names, axes[:, 0]):
-        case, out = cases[name], arguments.out / name.lower()
-        run(name, out, arguments.settings)
+        case = cases[name]
+        out = run(case["file"], arguments.out / name.lower(), case["set"] + arguments.settings)
         t, found = histories(out)
         late = t >= t[-1] - case["window"]
         leading = "uy" if "uy" in found else "lift"
         periods = rises(t[late], found[leading][late])
-        reference = published[case["published"]]
+        reference = references[case["published"]]
         for key, series in found.items():
             # Forces without the pulses of single cells that change sides: means over a fiftieth of a period.
             moves = key in ("ux", "uy")

@@ -8,10 +8,8 @@ Writes DIR/valve.png, the open area against time (default validation/valve-dry/r
 is the part of the disk of the wall's radius that no triangle covers, seen along the axis, on 240 x 240 points.
 """
 import argparse
-import csv
 import json
-import math
-import subprocess
+import sys
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
@@ -24,7 +22,9 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
+sys.path.insert(0, str(here.parent))
+from comparison import columns, root, run
+
 WALL = 0.0127  # radius [m]
 
 # What our own prototype measured on the same mesh (another code, Newmark with the same damping); no one else's figures.
@@ -40,14 +40,9 @@ PROTOTYPE_CLOSING = {"Newton iterations per step": 3.1, "most in a step": 5, "st
                      "edges through triangles": 0}
 
 
-def run(case, out):
-    if not (out / "summary.json").exists():
-        subprocess.run([root / "luff", "run", root / "cases/valve-dry" / case, "--out", out], check=True)
-    with open(out / "steps.csv") as file:
-        rows = list(csv.reader(file))
-    columns = {name.split(" [")[0]: [float(row[i]) if row[i] else math.nan for row in rows[1:]]
-               for i, name in enumerate(rows[0])}
-    return columns, json.loads((out / "summary.json").read_text())
+def computed_steps(case, out):
+    run(root / "cases/valve-dry" / case, out)
+    return columns(out / "steps.csv"), json.loads((out / "summary.json").read_text())
 
 
 def instants(out):
@@ -83,9 +78,9 @@ def first_time(t, area, level):
     return t[k - 1] + (level - area[k - 1]) / (area[k] - area[k - 1]) * (t[k] - t[k - 1])
 
 
-def solver(columns, summary):
-    return {"Newton iterations per step": np.mean(columns["newton_iterations"]),
-            "most in a step": max(columns["newton_iterations"]),
+def solver(steps, summary):
+    return {"Newton iterations per step": np.mean(steps["newton_iterations"]),
+            "most in a step": max(steps["newton_iterations"]),
             "steps that failed": 0 if summary["state"] == "finished" else 1,
             "steps halved": summary["halved_steps"],
             "edges through triangles": summary["contact"]["crossings"],
@@ -102,20 +97,19 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, default=here / "results")
     out = parser.parse_args().out
-    columns, summary = run("case.toml", out / "cycle")
+    steps, summary = computed_steps("case.toml", out / "cycle")
     t, area = zip(*((t, open_area(points, triangles)) for t, points, triangles in instants(out / "cycle")))
     held = area[min(range(len(t)), key=lambda i: abs(t[i] - 0.05))]
     computed = {"open area, largest": max(area), "open area that is held": held, "open area at the end": area[-1],
                 "ms to an open area of 0.2": 1e3 * first_time(t, area, 0.2),
                 "ms to 90 % of the open area that is held": 1e3 * first_time(t, area, 0.9 * held)}
-    table("10 mmHg, then -80 mmHg", computed | solver(columns, summary), PROTOTYPE)
-    closing = run("closing.toml", out / "closing")
-    table("closing from rest", solver(*closing), PROTOTYPE_CLOSING)
+    table("10 mmHg, then -80 mmHg", computed | solver(steps, summary), PROTOTYPE)
+    table("closing from rest", solver(*computed_steps("closing.toml", out / "closing")), PROTOTYPE_CLOSING)
 
     figure, (upper, lower) = plt.subplots(2, 1, figsize=(8, 6), sharex=True)
     upper.plot(1e3 * np.array(t), area)
     upper.set(ylabel="open area / area of the wall")
-    lower.plot(1e3 * np.array(columns["t"]), columns["newton_iterations"], linewidth=0.7)
+    lower.plot(1e3 * steps["t"], steps["newton_iterations"], linewidth=0.7)
     lower.set(xlabel="t [ms]", ylabel="Newton iterations")
     figure.tight_layout()
     figure.savefig(out / "valve.png", dpi=130)

@@ -13,9 +13,8 @@ and prints a table: the largest error over two periods and the section, as a par
 """
 import argparse
 import cmath
-import csv
 import math
-import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -24,7 +23,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 here = Path(__file__).resolve().parent
-root = here.parent.parent
+sys.path.insert(0, str(here.parent))
+from comparison import columns, run_text
+
 OMEGA = 2.0 * math.pi
 
 CASE = """title = "Oscillating channel flow, alpha = {alpha}"
@@ -70,25 +71,16 @@ def start_formula(alpha):
             f" - ({wall.imag:.15g})*sinh({b:.15g}*y)*sin({b:.15g}*y)")
 
 
-def run(alpha, cells, out):
-    folder = out / f"alpha-{alpha}-{cells}"
-    if not (folder / "run" / "summary.json").exists():
-        viscosity = OMEGA / alpha**2
-        step = min(0.005, 0.4 * (2.0 / cells) ** 2 / viscosity)
-        text = CASE.format(alpha=alpha, step=2.0 / math.ceil(2.0 / step), viscosity=viscosity, cells=cells,
-                           start=start_formula(alpha))
-        text += "".join(f'[[output.probe]]\nname = "y{n}"\npoint = [2.0, {y}, 0.5]\n' for n, y in enumerate(places(cells)))
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / "case.toml").write_text(text)
-        subprocess.run([root / "luff", "run", folder / "case.toml", "--out", folder / "run"], check=True)
-    return folder / "run"
+def text_of(alpha, cells):
+    viscosity = OMEGA / alpha**2
+    step = min(0.005, 0.4 * (2.0 / cells) ** 2 / viscosity)
+    text = CASE.format(alpha=alpha, step=2.0 / math.ceil(2.0 / step), viscosity=viscosity, cells=cells, start=start_formula(alpha))
+    return text + "".join(f'[[output.probe]]\nname = "y{n}"\npoint = [2.0, {y}, 0.5]\n' for n, y in enumerate(places(cells)))
 
 
-def history(run_folder, n):
-    with open(run_folder / f"probe-y{n}.csv") as file:
-        rows = list(csv.reader(file))
-    column = next(c for c, head in enumerate(rows[0]) if head.startswith("velocity_x"))
-    return [(float(row[0]), float(row[column])) for row in rows[1:]]
+def history(folder, n):
+    probe = columns(folder / f"probe-y{n}.csv")
+    return list(zip(probe["t"], probe["velocity_x"]))
 
 
 def main():
@@ -99,7 +91,7 @@ def main():
     alphas = [4.0, 10.0, 18.8]
     figure, axes = plt.subplots(1, len(alphas), figsize=(11, 4))
     for alpha, axis in zip(alphas, axes):
-        folder = run(alpha, options.cells, options.out)
+        folder = run_text(text_of(alpha, options.cells), options.out / f"alpha-{alpha}-{options.cells}")
         histories = [history(folder, n) for n in range(len(places(options.cells)))]
         error, largest = 0.0, 0.0
         for y, values in zip(places(options.cells), histories):
