@@ -3,6 +3,11 @@
 #include "surface/vtk_reader.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -154,6 +159,27 @@ void add_marks(vtkDataSet& data, MarkedMesh& marked)
   });
 }
 
+/// VTK makes room for as many triangles as a binary STL says that it has: 80 bytes of any text, their number, and 50
+/// bytes for each.  Bytes that are no letters tell it from text.
+void refuse_stl_cut_short(const File& file)
+{
+  constexpr std::size_t head = 84;
+  std::string start(512, ' ');
+  std::ifstream in(file, std::ios::binary);
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  const bool is_text =
+      std::all_of(start.begin() + 80, start.end(), [](unsigned char byte) { return byte != 0 && byte < 128; });
+  if (is_text || in.gcount() < static_cast<std::streamsize>(head))
+    return;
+  std::uint32_t count = 0;
+  std::memcpy(&count, start.data() + 80, sizeof count);
+  const std::uintmax_t needed = head + 50 * std::uintmax_t{count};
+  if (const std::uintmax_t size = std::filesystem::file_size(file); size < needed)
+    fail_input(
+        "{}: a binary STL of {} triangles has {} bytes, this one {}: it is cut short, or text with other bytes in it",
+        file.string(), count, needed, size);
+}
+
 template <class Reader>
 MarkedMesh read_as(const File& file, const std::string& kind)
 {
@@ -174,8 +200,10 @@ MarkedMesh read_as(const File& file, const std::string& kind)
 
 MarkedMesh read_vtk(const std::filesystem::path& file, const std::string& kind)
 {
-  if (kind == ".stl")
+  if (kind == ".stl") {
+    refuse_stl_cut_short(file);
     return read_as<vtkSTLReader>(file, kind);
+  }
   if (kind == ".vtu")
     return read_as<WithPointData<vtkXMLUnstructuredGridReader>>(file, kind);
   return read_as<WithPointData<vtkXMLPolyDataReader>>(file, kind);

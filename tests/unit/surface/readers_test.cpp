@@ -93,6 +93,14 @@ TEST_F(Readers, BinaryStlIsRead)
   EXPECT_DOUBLE_EQ(total_area(read_mesh(write("binary.stl", text)).mesh), 3);
 }
 
+// Before room for half a billion triangles is asked for.
+TEST_F(Readers, AnStlOfFewerTrianglesThanItSaysIsRefused)
+{
+  const std::string text = "solid square\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n" + std::string(30, ' ');
+  const std::string told = refusal(write("mixed.stl", text + std::string(30, '\0') + "endsolid square\n"));
+  EXPECT_NE(told.find("a binary STL of 538976288 triangles has"), std::string::npos) << told;
+}
+
 TEST_F(Readers, MissingFileIsRefused)
 {
   EXPECT_NE(refusal(folder_ / "nowhere.stl").find("no such file"), std::string::npos);
