@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -159,17 +160,26 @@ void add_marks(vtkDataSet& data, MarkedMesh& marked)
   });
 }
 
+/// As VTK's readers have it: of the first 256 bytes one in twenty is no letter.
+bool is_binary(std::string_view start)
+{
+  const auto is_text = [](unsigned char byte) {
+    return (byte >= 0x20 && byte <= 0x7f) || byte == '\n' || byte == '\r' || byte == '\t';
+  };
+  const auto letters = std::count_if(start.begin(), start.end(), is_text);
+  return 20 * (static_cast<std::ptrdiff_t>(start.size()) - letters) >= static_cast<std::ptrdiff_t>(start.size());
+}
+
 /// VTK makes room for as many triangles as a binary STL says that it has: 80 bytes of any text, their number, and 50
-/// bytes for each.  Bytes that are no letters tell it from text.
+/// bytes for each.
 void refuse_stl_cut_short(const File& file)
 {
   constexpr std::size_t head = 84;
-  std::string start(512, ' ');
+  std::string start(256, ' ');
   std::ifstream in(file, std::ios::binary);
   in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  const bool is_text =
-      std::all_of(start.begin() + 80, start.end(), [](unsigned char byte) { return byte != 0 && byte < 128; });
-  if (is_text || in.gcount() < static_cast<std::streamsize>(head))
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  if (start.size() < head || !is_binary(start))
     return;
   std::uint32_t count = 0;
   std::memcpy(&count, start.data() + 80, sizeof count);
