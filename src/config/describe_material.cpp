@@ -10,9 +10,15 @@ namespace {
 constexpr double largest_poisson_ratio = 0.5;  // incompressible; plane stress stays finite there
 constexpr double largest_dispersion = 1.0 / 3.0;
 
+/// Isotropic, with Young's modulus and Poisson's ratio?
+bool is_of_young(MaterialModel model)
+{
+  return model == MaterialModel::SaintVenantKirchhoff || model == MaterialModel::Hencky;
+}
+
 bool is_exponential(MaterialModel model)
 {
-  return model != MaterialModel::SaintVenantKirchhoff && model != MaterialModel::NeoHookean;
+  return !is_of_young(model) && model != MaterialModel::NeoHookean;
 }
 
 /// Does the law's energy depend on the direction of the fibre?
@@ -50,9 +56,9 @@ void number(Schema& s, std::string_view name, double& value, std::string_view do
   s.key(name, value, {.doc = doc, .range = range, .required = true});
 }
 
-void describe_linear(Schema& s, MaterialOptions& m)
+void describe_moduli(Schema& s, MaterialOptions& m)
 {
-  s.when(m.model == MaterialModel::SaintVenantKirchhoff, "`model = \"saint-venant-kirchhoff\"`", [&] {
+  s.when(is_of_young(m.model), "`model = \"saint-venant-kirchhoff\"` or `\"hencky\"`", [&] {
     stress(s, "young", m.young, "Young's modulus.");
     number(s, "poisson", m.poisson, "Poisson's ratio.",
            {.low = -1.0, .high = largest_poisson_ratio, .with_low = false});
@@ -119,11 +125,14 @@ void describe_families(Schema& s, MaterialOptions& m)
 
 void describe(Schema& s, MaterialOptions& m)
 {
-  s.key("model", m.model,
-        {.doc = "Law of stress and strain. All but the first are large-strain laws of incompressible materials; "
-                "formulas, and constants with their standing: docs/numerics/materials.md.",
-         .required = true});
-  describe_linear(s, m);
+  s.key(
+      "model", m.model,
+      {.doc =
+           "Law of stress and strain. The first is for small strains; `hencky` is that of the logarithmic strain, the "
+           "others large-strain laws of incompressible materials. Formulas, and constants with their standing: "
+           "docs/numerics/materials.md.",
+       .required = true});
+  describe_moduli(s, m);
   s.when(m.model == MaterialModel::NeoHookean || m.model == MaterialModel::HolzapfelGasserOgden,
          "`model = \"neo-hookean\"` or `\"holzapfel-gasser-ogden\"`",
          [&] { stress(s, "shear_modulus", m.shear_modulus, "Shear modulus, of the matrix between the fibres."); });

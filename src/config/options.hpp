@@ -146,7 +146,15 @@ struct PlacementOptions {
   bool operator==(const PlacementOptions&) const = default;
 };
 
-enum class MaterialModel { SaintVenantKirchhoff, NeoHookean, MayNewmanYin, LeeSacks, Fung, HolzapfelGasserOgden };
+enum class MaterialModel {
+  SaintVenantKirchhoff,
+  Hencky,
+  NeoHookean,
+  MayNewmanYin,
+  LeeSacks,
+  Fung,
+  HolzapfelGasserOgden
+};
 
 /// Around an axis.
 struct CircumferenceOptions {

@@ -76,6 +76,7 @@ inline Words<MeshPattern> words(MeshPattern)
 inline Words<MaterialModel> words(MaterialModel)
 {
   return {{{MaterialModel::SaintVenantKirchhoff, "saint-venant-kirchhoff"},
+           {MaterialModel::Hencky, "hencky"},
            {MaterialModel::NeoHookean, "neo-hookean"},
            {MaterialModel::MayNewmanYin, "may-newman-yin"},
            {MaterialModel::LeeSacks, "lee-sacks"},

@@ -140,9 +140,9 @@ class IntegratedSection {
 };
 
 /// The section of any material; St-Venant-Kirchhoff's is linear.
-using Section =
-    std::variant<LinearSection, IntegratedSection<NeoHookean>, IntegratedSection<MayNewmanYin>,
-                 IntegratedSection<LeeSacks>, IntegratedSection<Fung>, IntegratedSection<HolzapfelGasserOgden>>;
+using Section = std::variant<LinearSection, IntegratedSection<Hencky>, IntegratedSection<NeoHookean>,
+                             IntegratedSection<MayNewmanYin>, IntegratedSection<LeeSacks>, IntegratedSection<Fung>,
+                             IntegratedSection<HolzapfelGasserOgden>>;
 
 /// \param thickness_points 1 .. max_thickness_points; 0: recommended_thickness_points(material)
 Section make_section(const Material& material, double thickness, int thickness_points);

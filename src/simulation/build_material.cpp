@@ -67,6 +67,8 @@ std::vector<Vec3> directions(const config::FibreOptions& fibre, const config::Sh
 shell::Material build_material(const config::MaterialOptions& m)
 {
   switch (m.model) {
+    case config::MaterialModel::Hencky:
+      return shell::Hencky{.young = m.young, .poisson = m.poisson};
     case config::MaterialModel::NeoHookean:
       return shell::NeoHookean{.shear_modulus = m.shear_modulus};
     case config::MaterialModel::MayNewmanYin:

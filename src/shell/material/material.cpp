@@ -35,11 +35,14 @@ struct Constants {
     require(largest >= 1 && largest <= 50, "largest_exponent", largest, "between 1 and 50");
   }
 
-  void check(const SaintVenantKirchhoff& m) const
+  void isotropic(double young, double poisson) const
   {
-    positive("young", m.young);
-    require(m.poisson > -1 && m.poisson <= 0.5, "poisson", m.poisson, "greater than -1 and at most 0.5");
+    positive("young", young);
+    require(poisson > -1 && poisson <= 0.5, "poisson", poisson, "greater than -1 and at most 0.5");
   }
+
+  void check(const SaintVenantKirchhoff& m) const { isotropic(m.young, m.poisson); }
+  void check(const Hencky& m) const { isotropic(m.young, m.poisson); }
   void check(const NeoHookean& m) const { positive("shear_modulus", m.shear_modulus); }
   void check(const MayNewmanYin& m) const
   {

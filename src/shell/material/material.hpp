@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "shell/material/fung.hpp"
+#include "shell/material/hencky.hpp"
 #include "shell/material/holzapfel_gasser_ogden.hpp"
 #include "shell/material/lee_sacks.hpp"
 #include "shell/material/may_newman_yin.hpp"
@@ -17,7 +18,8 @@ namespace luff::shell {
 /// Every law is a plain struct with energy, stress, tangent and response as functions of the Green-Lagrange strain
 /// (E11, E22, 2 E12) and the fibre, both in the frame of the reference triangle; W is per reference volume, the
 /// stress is dW/dE, the tangent d2W/dE2. Formulas, sources and constants: docs/numerics/materials.md.
-using Material = std::variant<SaintVenantKirchhoff, NeoHookean, MayNewmanYin, LeeSacks, Fung, HolzapfelGasserOgden>;
+using Material =
+    std::variant<SaintVenantKirchhoff, Hencky, NeoHookean, MayNewmanYin, LeeSacks, Fung, HolzapfelGasserOgden>;
 
 /// \throws InputError naming `shell`, the constant, its value and what is allowed.
 void validate(const Material& material, std::string_view shell);

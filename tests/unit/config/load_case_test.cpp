@@ -176,12 +176,13 @@ z_max = { type = "wall" }
   EXPECT_EQ(load_text(written(c)), c);
 }
 
+const std::string strip =
+    "[[shell]]\nname = \"strip\"\nthickness = 0.1\ndensity = 1\n"
+    "mesh = { shape = \"rectangle\", origin = [0, 0, 0], a = [10, 0, 0], b = [0, 1, 0], divisions = [32, 4] }\n"
+    "material = { model = \"saint-venant-kirchhoff\", young = 1.2e6, poisson = 0 }\n";
+
 TEST(AShellAlone, MayFollowItsPathOfEquilibria)
 {
-  const std::string strip =
-      "[[shell]]\nname = \"strip\"\nthickness = 0.1\ndensity = 1\n"
-      "mesh = { shape = \"rectangle\", origin = [0, 0, 0], a = [10, 0, 0], b = [0, 1, 0], divisions = [32, 4] }\n"
-      "material = { model = \"saint-venant-kirchhoff\", young = 1.2e6, poisson = 0 }\n";
   const Case arc = load_text(strip + "[structure]\nanalysis = \"arc-length\"\nsteps = 8\nmax_steps = 70\n");
   EXPECT_EQ(arc.structure.analysis, Analysis::ArcLength);
   EXPECT_EQ(arc.structure.max_steps, 70);
@@ -200,10 +201,6 @@ TEST(AShellAlone, MayFollowItsPathOfEquilibria)
 
 TEST(AShellAlone, MayVibrate)
 {
-  const std::string strip =
-      "[[shell]]\nname = \"strip\"\nthickness = 0.1\ndensity = 1\n"
-      "mesh = { shape = \"rectangle\", origin = [0, 0, 0], a = [10, 0, 0], b = [0, 1, 0], divisions = [32, 4] }\n"
-      "material = { model = \"saint-venant-kirchhoff\", young = 1.2e6, poisson = 0 }\n";
   const Case c = load_text(strip + "[structure]\nanalysis = \"modes\"\nmodes = 3\n");
   EXPECT_EQ(c.structure.analysis, Analysis::Modes);
   EXPECT_EQ(c.structure.modes, 3);
@@ -217,14 +214,17 @@ TEST(AShellAlone, MayVibrate)
 
 TEST(AShellAlone, NeedsNoFluidNoGridAndNoBoundary)
 {
-  const Case c = load_text(
-      "[[shell]]\nname = \"strip\"\nthickness = 0.1\ndensity = 1\n"
-      "mesh = { shape = \"rectangle\", origin = [0, 0, 0], a = [10, 0, 0], b = [0, 1, 0], divisions = [32, 4] }\n"
-      "material = { model = \"saint-venant-kirchhoff\", young = 1.2e6, poisson = 0 }\n"
-      "[structure]\nanalysis = \"static\"\nsteps = 8\n");
+  const Case c = load_text(strip + "[structure]\nanalysis = \"static\"\nsteps = 8\n");
   EXPECT_FALSE(c.fluid);
   EXPECT_EQ(c.structure.analysis, Analysis::Static);
   EXPECT_EQ(c.structure.steps, 8);
+  EXPECT_EQ(load_text(written(c)), c);
+}
+
+TEST(AShellAlone, MayBeOfHenckysMaterial)
+{
+  const Case c = load_text(changed(strip, "saint-venant-kirchhoff", "hencky") + "[structure]\nanalysis = \"static\"\n");
+  EXPECT_EQ(c.shells[0].material, (MaterialOptions{MaterialModel::Hencky, 1.2e6, 0.0}));
   EXPECT_EQ(load_text(written(c)), c);
 }
 

@@ -33,6 +33,7 @@ const Make makes[] = {
     {"Hinge", soft(linear, BendingKind::Hinge, MembraneKind::ConstantStrain)},
     {"Smoothed", soft(linear, BendingKind::AveragedQuadratics, MembraneKind::Smoothed)},
     {"SmoothedPatchQuadratic", soft(linear, BendingKind::PatchQuadratic, MembraneKind::Smoothed)},
+    {"Hencky", soft(Hencky{1e3, 0.3}, BendingKind::AveragedQuadratics, MembraneKind::ConstantStrain)},
     {"NeoHookean", soft(rubber, BendingKind::AveragedQuadratics, MembraneKind::ConstantStrain)},
     {"SmoothedNeoHookean", soft(rubber, BendingKind::AveragedQuadratics, MembraneKind::Smoothed)},
 };

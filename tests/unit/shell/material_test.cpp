@@ -48,6 +48,7 @@ struct Example {
 std::vector<Example> examples()
 {
   return {{"St-Venant-Kirchhoff", SaintVenantKirchhoff{.young = 100, .poisson = 0.3}},
+          {"Hencky", Hencky{.young = 100, .poisson = 0.3}},
           {"neo-Hookean", NeoHookean{.shear_modulus = 100}},
           {"May-Newman-Yin, anterior", anterior},
           {"May-Newman-Yin, anterior with c10", with_matrix(anterior, 1)},
@@ -153,8 +154,14 @@ TEST(Material, StressAndTangentAreDerivativesOfTheEnergyBeyondTheLargestExponent
     for (const Vec3& E : random_strains(0.25))
       beyond += energy(guarded, E) < energy(material, E);
     std::printf("  %-42s stress %.1e  tangent %.1e, %d of 200 beyond\n", name, d.stress, d.tangent, beyond);
-    const bool exponential =
-        !std::holds_alternative<SaintVenantKirchhoff>(material) && !std::holds_alternative<NeoHookean>(material);
+    const bool exponential = std::visit(
+        [](const auto& law) {
+          return requires
+          {
+            law.largest_exponent;
+          };
+        },
+        material);
     EXPECT_EQ(beyond > 10, exponential) << name;
   }
 }
@@ -206,7 +213,8 @@ TEST(Material, StressVanishesAtRestAndStiffnessThereIsTheReferencesForIsotropicL
   for (const auto& [name, material] : examples())
     EXPECT_EQ(response(material, Vec3::Zero()).stress, Vec3::Zero()) << name;
   const std::vector<Material> isotropic{SaintVenantKirchhoff{.young = 100, .poisson = 0.3},
-                                        NeoHookean{.shear_modulus = 100}, LeeSacks{.c0 = 67.6, .c1 = 13.3, .c2 = 38.2}};
+                                        Hencky{.young = 100, .poisson = 0.3}, NeoHookean{.shear_modulus = 100},
+                                        LeeSacks{.c0 = 67.6, .c1 = 13.3, .c2 = 38.2}};
   for (const Material& material : isotropic) {
     const Mat3 C = reference_moduli(material);
     EXPECT_LT((response(material, Vec3::Zero()).tangent - C).norm(), 1e-14 * C.norm());
@@ -258,6 +266,60 @@ TEST(Material, NeoHookeanStretchedOneWayFollowsTheExactStress)
     const Vec3 sigma = cauchy(NeoHookean{.shear_modulus = mu}, stretch, 1 / std::sqrt(stretch), oblique);
     EXPECT_NEAR(sigma[0], mu * (stretch * stretch - 1 / stretch), 1e-14 * mu);
     EXPECT_NEAR(sigma[1], 0, 1e-14 * mu);
+  }
+}
+
+/// With Poisson's ratio 0.3 the other stretch is U^-0.3, and the force per reference area U S = E ln U/U.
+TEST(Material, HenckyStretchedOneWayFollowsTheExactStress)
+{
+  const Hencky law{.young = 5, .poisson = 0.3};
+  for (const double stretch : {0.1, 0.4, 0.9, 1.0, 1.0001, 1.3, 2.0}) {
+    const double across = std::pow(stretch, -0.3);
+    const Vec3 E((stretch * stretch - 1) / 2, (across * across - 1) / 2, 0);
+    const Vec3 S = law.stress(E, oblique);
+    const double exact = 5 * std::log(stretch) / stretch;
+    EXPECT_NEAR(stretch * S[0], exact, 1e-14 * 5 / stretch);
+    EXPECT_NEAR(S[1], 0, 1e-14 * 5 / stretch);
+    const double energy = 2.5 * std::log(stretch) * std::log(stretch);
+    EXPECT_NEAR(law.energy(E, oblique), energy, 1e-14 * 5);
+  }
+}
+
+/// tau = J F S F' of Kirchhoff's principal stresses: E/(1 - nu^2) (ln U1 + nu ln U2), for any turn of the principal
+/// axes.
+TEST(Material, HenckysKirchhoffStressIsLinearInTheLogarithmicStrain)
+{
+  const Hencky law{.young = 5, .poisson = 0.3};
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(0.7).toRotationMatrix();
+  for (const auto& [U1, U2] : {std::pair{1.6, 0.5}, {0.9, 0.89999}, {1.2, 1.2}, {0.3, 0.2}}) {
+    const Eigen::Vector2d U(U1, U2), strain(std::log(U1), std::log(U2));
+    const Eigen::Matrix2d E = R * Eigen::Vector2d((U.array().square() - 1) / 2).asDiagonal() * R.transpose();
+    const Vec3 S = law.stress({E(0, 0), E(1, 1), 2 * E(0, 1)}, oblique);
+    const Eigen::Matrix2d principal = R.transpose() * (Eigen::Matrix2d() << S[0], S[2], S[2], S[1]).finished() * R;
+    const Eigen::Matrix2d tau = U.asDiagonal() * principal * U.asDiagonal();
+    const Eigen::Vector2d exact = 5 / (1 - 0.09) * (strain + 0.3 * strain.reverse());
+    EXPECT_LT((tau - Eigen::Matrix2d(exact.asDiagonal())).norm(), 1e-13 * exact.norm()) << U.transpose();
+  }
+}
+
+/// With C = c 1 the directions of the principal stretches are undetermined, the tangent is not:
+///
+///   c^2 D11 = K (1 - 2 ln c) + G,  c^2 D12 = K - G,  c^2 D33 = G - K ln c
+TEST(Material, HenckysTangentIsExactAtAndBesideEqualStretches)
+{
+  const Hencky law{.young = 100, .poisson = 0.3};
+  const double K = 100 / 1.4, G = 100 / 2.6;
+  for (const double c : {0.25, 1.0, 1.7}) {
+    const double normal = K * (1 - 2 * std::log(c)) + G;
+    Mat3 exact;
+    exact << normal, K - G, 0, K - G, normal, 0, 0, 0, G - K * std::log(c);
+    exact /= c * c;
+    const Vec3 equal((c - 1) / 2, (c - 1) / 2, 0);
+    EXPECT_LT((law.tangent(equal, oblique) - exact).norm(), 1e-14 * exact.norm()) << c;
+    for (const double beside : {1e-12, 1e-8, 1e-5, 1e-3})
+      EXPECT_LT((law.tangent(equal + beside * Vec3(1, -1, 0.5), oblique) - exact).norm(),
+                (1e-14 + 10 * beside / c) * exact.norm())
+          << c << ", " << beside;
   }
 }
 
@@ -329,6 +391,7 @@ TEST(Material, ConstantsOutOfRangeAreNamed)
   Fung indefinite{.c = 10, .A = full_matrix()};
   indefinite.A(0, 1) = indefinite.A(1, 0) = 9;
   const std::vector<Wrong> wrongs{{SaintVenantKirchhoff{.young = 1, .poisson = 0.6}, "poisson = 0.6"},
+                                  {Hencky{.young = 1, .poisson = -1}, "poisson = -1"},
                                   {NeoHookean{.shear_modulus = -1}, "shear_modulus = -1"},
                                   {MayNewmanYin{.c0 = 0, .c1 = 1, .c2 = 1}, "c0 = 0"},
                                   {overflowing, "largest_exponent = 800"},
