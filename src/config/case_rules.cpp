@@ -3,6 +3,7 @@
 #include "config/case_rules.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/core.h>
 
@@ -159,6 +160,19 @@ void state_cut_rules(Schema& s, const Case& options)
          "must be left out without a [fluid]");
 }
 
+void state_checkpoint_rules(Schema& s, const Case& options)
+{
+  const auto& checkpoint = options.output.checkpoint;
+  if (!checkpoint)
+    return;
+  const Analysis analysis = options.structure.analysis;
+  s.rule(analysis != Analysis::Modes, "output.checkpoint",
+         "must be left out with `structure.analysis = \"modes\"`: they are found at once");
+  s.rule(analysis == Analysis::Dynamic || analysis == Analysis::Modes ||
+             (checkpoint->every >= 1.0 && checkpoint->every == std::floor(checkpoint->every)),
+         "output.checkpoint.every", "must be a whole number of equilibria unless `structure.analysis = \"dynamic\"`");
+}
+
 }  // namespace
 
 void state_case_rules(Schema& s, const Case& options)
@@ -183,8 +197,7 @@ void state_case_rules(Schema& s, const Case& options)
       std::any_of(sides.begin(), sides.end(), [](const auto& side) { return side.type == SideType::Wall; });
   s.rule((flows && has_wall) || !options.output.walls, "output.walls",
          "must be left out without a side of type \"wall\": bodies have their stresses in output.shells");
-  s.rule(options.structure.analysis == Analysis::Dynamic || !options.output.checkpoint, "output.checkpoint",
-         "must be left out unless `structure.analysis = \"dynamic\"`");
+  state_checkpoint_rules(s, options);
   state_names_rule(s, options);
   state_periodic_rule(s, options);
   state_skin_rule(s, options);

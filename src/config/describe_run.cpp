@@ -172,7 +172,7 @@ void describe(Schema& s, OutputOptions& output)
           {.doc = "Sides of type `wall`, for ParaView: shear stress and pressure by face. Absent: not written."});
   s.table("checkpoint", output.checkpoint,
           {.doc = "Everything that the run can go on from, with `luff run CASE --restart RUN`; the last two are kept. "
-                  "Absent: only when a run is stopped or fails. Motion in time only."});
+                  "Absent: only when a run is stopped or fails. Not of modes."});
   s.key("audit", output.audit,
         {.doc = "Steps between audits of the forces of the flow: their sum over a surface against the momentum of the "
                 "fluid around it (`audit.csv`, `force_mismatch` in `steps.csv`, `audit` in the summary), and of what "
@@ -218,7 +218,12 @@ void describe(Schema& s, WallOutputOptions& walls)
 
 void describe(Schema& s, CheckpointOutputOptions& checkpoint)
 {
-  describe_every(s, checkpoint.every, "Time between two checkpoints.");
+  s.key("every", checkpoint.every,
+        {.doc = "Time between two checkpoints; under a growing load, the number of equilibria, over all shells, from "
+                "one to the next.",
+         .unit = "s or -",
+         .range = positive,
+         .required = true});
 }
 
 void describe(Schema& s, ProbeOptions& probe)

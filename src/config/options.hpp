@@ -449,7 +449,7 @@ struct WallOutputOptions {
 };
 
 struct CheckpointOutputOptions {
-  double every = 0.0;
+  double every = 0.0;  ///< time; under a growing load a number of equilibria
 
   bool operator==(const CheckpointOutputOptions&) const = default;
 };

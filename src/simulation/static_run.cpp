@@ -2,6 +2,7 @@
 #include "simulation/static_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -291,11 +292,11 @@ class StaticRun {
       for (; so_far_.shell < static_cast<std::int64_t>(shells_.size()); begin_next_shell())
         load(static_cast<std::size_t>(so_far_.shell), ended);
     } catch (const Stopped&) {
-      checkpoint();
+      checkpoint_at_end();
       throw;
     } catch (const std::exception&) {
       if (all_ranks_arrive(folder_.comm()))
-        checkpoint();
+        checkpoint_at_end();
       else
         log_.warn("no checkpoint: the ranks of the run have lost each other");
       throw;
@@ -311,6 +312,8 @@ class StaticRun {
       ++so_far_.steps;
       so_far_.point = shell::point_of(step);
       recording_ = false;
+      if (checkpoint_is_due())
+        checkpoint();
       if (ended() && step.load_factor < 1.0)
         throw Stopped();
     });
@@ -323,11 +326,23 @@ class StaticRun {
     so_far_.sharp_folds = 0;
   }
 
-  /// A run that is stopped or fails can go on.
-  void checkpoint()
+  /// Every so many equilibria, over all shells.
+  [[nodiscard]] bool checkpoint_is_due() const
   {
-    if (so_far_.steps == 0)
-      return;
+    const auto& checkpoints = options_.output.checkpoint;
+    return checkpoints && std::fmod(static_cast<double>(so_far_.steps), checkpoints->every) == 0.0;
+  }
+
+  /// A run that is stopped or fails can go on.
+  void checkpoint_at_end()
+  {
+    if (so_far_.steps > 0 && (so_far_.steps == checkpointed_steps_ || checkpoint()))
+      log_.info("go on from here with: luff run CASE --restart {}", folder_.path().string());
+  }
+
+  /// False, with a warning, where it could not be written; the run may go on without.
+  bool checkpoint()
+  {
     try {
       if (recording_)
         fail_run("the tables lack the last step");
@@ -337,9 +352,12 @@ class StaticRun {
       if (!on_all_ranks(folder_.comm(), flushed))
         fail_run("tables cannot be written to disk");
       write_checkpoint(folder_, options_, shells_, record());
-      log_.info("go on from here with: luff run CASE --restart {}", folder_.path().string());
+      checkpointed_steps_ = so_far_.steps;
+      return true;
     } catch (const RunError& error) {
       log_.warn("no checkpoint: {}", error.what());
+      summary_["failed_checkpoints"] = summary_.value("failed_checkpoints", 0) + 1;
+      return false;
     }
   }
 
@@ -371,7 +389,8 @@ class StaticRun {
   const std::vector<LoadedShell>& shells_;
   nlohmann::ordered_json& summary_;
   StaticRecord so_far_;
-  bool recording_ = false;  ///< an equilibrium of which not all is written yet
+  std::int64_t checkpointed_steps_ = -1;  ///< of the last checkpoint; -1: none yet
+  bool recording_ = false;                ///< an equilibrium of which not all is written yet
   std::vector<StaticAnalysis> analyses_;
 };
 

@@ -20,8 +20,8 @@ namespace luff::simulation {
 
 /// Loads every shell as structure.analysis says; writes steps-<shell>.csv, probe-<name>.csv against the load factor,
 /// shell-<name>.pvd and summary.json.  Ends after the step in which a STOP file appears or `interrupted` is true.
-/// Then, and where it fails, it leaves a checkpoint. Goes on from `resumption` unless that is null.
-/// Collective. Throws RunError where there is no equilibrium; the summary then says so.
+/// Then, where it fails, and every output.checkpoint.every equilibria it leaves a checkpoint. Goes on from `resumption`
+/// unless that is null. Collective. Throws RunError where there is no equilibrium; the summary then says so.
 void run_static(const output::RunFolder& folder, const std::shared_ptr<spdlog::logger>& log,
                 const config::Case& options, const std::vector<LoadedShell>& shells,
                 const std::function<bool()>& interrupted, const StaticResumption* resumption);

@@ -6,6 +6,8 @@
 
 #include <sys/resource.h>
 
+#include <fmt/core.h>
+
 #include "output/checkpoint_file.hpp"
 #include "run_files.hpp"
 #include "small_cases.hpp"
@@ -516,6 +518,17 @@ TEST_P(StaticRestart, LeavesTheSameBytesInItsOwnAndInANewFolder)
   expect_as_at_a_go(parts);
 }
 
+/// Names, the earliest first.
+Words checkpoints_of(const std::filesystem::path& run)
+{
+  Words found;
+  for (const auto& entry : std::filesystem::directory_iterator(run))
+    if (entry.path().extension() == ".h5")
+      found.push_back(entry.path().filename());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 const std::string static_strip =
     changed(changed(small_strip, "[time]\nend = 0.5\nstep = 0.05\n", "[structure]\nanalysis = \"static\"\nsteps = 6\n"),
             "\"0.001*t\"", "0.004");
@@ -541,6 +554,30 @@ const StaticPath static_paths[] = {
 
 INSTANTIATE_TEST_SUITE_P(Paths, StaticRestart, testing::ValuesIn(static_paths),
                          [](const auto& path) { return path.param.name; });
+
+/// As if killed after the checkpoint before the last: what came later is still there.
+TEST(StaticRestarts, GoOnFromCheckpointsAtACadenceWithTheSameBits)
+{
+  const std::pair<StaticPath, std::string> ways[] = {
+      {static_paths[0], "strip"}, {static_paths[2], "roof"}, {static_paths[3], "roof"}};
+  for (const auto& [path, shell] : ways) {
+    SCOPED_TRACE(path.name);
+    const WorkFolder folder;
+    folder.write("case.toml", path.text);
+    const Words sets = path.sets + Words{"--set", "output.checkpoint.every=2"};
+    run_well(folder, sets + into("whole"));
+    run_well(folder, sets + into("parts"));
+    const std::filesystem::path whole = folder.path() / "whole", parts = folder.path() / "parts";
+    const Words kept = checkpoints_of(parts);
+    ASSERT_EQ(kept.size(), 2U);
+    const std::size_t last = read_table(whole / ("steps-" + shell + ".csv")).rows.size() / 2 * 2;
+    EXPECT_EQ(kept, (Words{fmt::format("checkpoint-{:08}.h5", last - 2), fmt::format("checkpoint-{:08}.h5", last)}));
+    std::filesystem::remove(parts / kept.back());
+    run_well(folder, sets + Words{"--restart", "parts"});
+    expect_same_results(whole, parts);
+    EXPECT_EQ(checkpoints_of(parts), kept);
+  }
+}
 
 TEST(StaticRestarts, RefuseAnotherLoadOrMesh)
 {

@@ -228,6 +228,18 @@ TEST(AShellAlone, MayBeOfHenckysMaterial)
   EXPECT_EQ(load_text(written(c)), c);
 }
 
+TEST(AShellAlone, LeavesCheckpointsEverySoManyEquilibria)
+{
+  const std::string loaded = strip + "[structure]\nanalysis = \"static\"\n[output]\ncheckpoint = { every = 3 }\n";
+  EXPECT_EQ(load_text(loaded).output.checkpoint->every, 3.0);
+  EXPECT_EQ(complaint_about(changed(loaded, "every = 3", "every = 2.5")),
+            "case.toml:10: output.checkpoint.every = 2.5 must be a whole number of equilibria unless "
+            "`structure.analysis = \"dynamic\"`");
+  EXPECT_EQ(complaint_about(changed(loaded, "\"static\"", "\"modes\"")),
+            "case.toml:10: output.checkpoint must be left out with `structure.analysis = \"modes\"`: they are found at "
+            "once");
+}
+
 TEST(AShellWithoutStiffnessAtRest, IsRefusedInAStaticAnalysis)
 {
   const std::string strip =
