@@ -33,14 +33,10 @@ void describe(Schema& s, Case& options)
           {.doc = "What is written, besides `log.txt`, `steps.csv`, forces and `summary.json`."});
 }
 
-void describe(Schema& s, StructureOptions& structure)
+namespace {
+
+void describe_equilibria(Schema& s, StructureOptions& structure)
 {
-  s.key("analysis", structure.analysis,
-        {.doc = "`dynamic`: motion in time. The others, only without a fluid, find equilibria under loads that grow in "
-                "proportion from nothing to what they are at t = 1. `static`: by equal load steps. `arc-length`: along "
-                "the path of equilibria, through limit points and snap-back, until it first reaches the whole load. "
-                "`displacement-control`: by equal steps of a displacement, the load following. `modes`: natural "
-                "frequencies and modes."});
   const bool modes = structure.analysis == Analysis::Modes;
   s.when(modes, "`analysis = \"modes\"`", [&] {
     s.key("modes", structure.modes, {.doc = "How many, the lowest ones.", .range = at_least_one});
@@ -69,10 +65,10 @@ void describe(Schema& s, StructureOptions& structure)
     s.table("control", structure.control,
             {.doc = "The displacement that is prescribed; only with a single shell.", .required = true});
   });
-  s.key(
-      "solver", structure.solver,
-      {.doc = "Linear solver in Newton's method: a sparse factorisation, conjugate gradients, or these with incomplete "
-              "Cholesky. The iterative ones only where shells neither buckle nor snap."});
+}
+
+void describe_time_scheme(Schema& s, StructureOptions& structure)
+{
   s.when(structure.analysis == Analysis::Dynamic, "`analysis = \"dynamic\"`", [&] {
     s.key("scheme", structure.scheme,
           {.doc =
@@ -91,6 +87,24 @@ void describe(Schema& s, StructureOptions& structure)
             {.doc = "What a step leaves of the frequencies it does not resolve.", .range = {.low = 0.0, .high = 1.0}});
     });
   });
+}
+
+}  // namespace
+
+void describe(Schema& s, StructureOptions& structure)
+{
+  s.key("analysis", structure.analysis,
+        {.doc = "`dynamic`: motion in time. The others, only without a fluid, find equilibria under loads that grow in "
+                "proportion from nothing to what they are at t = 1. `static`: by equal load steps. `arc-length`: along "
+                "the path of equilibria, through limit points and snap-back, until it first reaches the whole load. "
+                "`displacement-control`: by equal steps of a displacement, the load following. `modes`: natural "
+                "frequencies and modes."});
+  describe_equilibria(s, structure);
+  s.key(
+      "solver", structure.solver,
+      {.doc = "Linear solver in Newton's method: a sparse factorisation, conjugate gradients, or these with incomplete "
+              "Cholesky. The iterative ones only where shells neither buckle nor snap."});
+  describe_time_scheme(s, structure);
   s.key("fold_limit", structure.fold_limit,
         {.doc = "The run ends where a shell folds by more than this over an edge of its mesh. The element resists a "
                 "fold most at 90 degrees and less beyond: above 75, refine the mesh, or know what you do.",

@@ -70,6 +70,19 @@ void for_unknowns(const Level& level, Visit visit)
     visit(level.layout().size + e, 0, extra_unknown(e));
 }
 
+/// All levels of a problem.
+struct OnOneRank {
+  explicit OnOneRank(const Problem& problem)
+      : box(problem.box()), multigrid(box, {{0, 0, 0}, box.cells()}, neighbourhood)
+  {
+    multigrid.set_blocked(problem.blocked());
+  }
+
+  Box box;
+  Neighbourhood neighbourhood{.comm = MPI_COMM_SELF};
+  Multigrid multigrid;
+};
+
 /// Two neighbouring levels and what lies between.
 struct Pair {
   explicit Pair(const Problem& problem) : fine_box(problem.box())
@@ -190,18 +203,16 @@ TEST(Multigrid, IsASymmetricOperator)
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
   for (const Problem& problem : problems()) {
-    const Box box = problem.box();
-    Neighbourhood alone;
-    alone.comm = MPI_COMM_SELF;
-    Multigrid multigrid(box, {{0, 0, 0}, box.cells()}, alone);
-    multigrid.set_blocked(problem.blocked());
+    OnOneRank alone(problem);
+    Multigrid& multigrid = alone.multigrid;
     Level& level = multigrid.finest();
     std::vector<int> component;
     std::vector<char> floating;
     multigrid.label_components(component, floating);
     // Right-hand sides of the singular operator have zero mean on every floating component.
     const auto vector = [&] {
-      std::vector<double> x(static_cast<std::size_t>(box.cells()[0]) * box.cells()[1] * box.cells()[2]);
+      const auto [nx, ny, nz] = alone.box.cells();
+      std::vector<double> x(static_cast<std::size_t>(nx) * ny * nz);
       std::vector<double> sum(floating.size(), 0.0), count(floating.size(), 0.0);
       const auto label = [&](std::size_t q) { return component.empty() ? 0 : component[q]; };
       for (std::size_t q = 0; q < x.size(); ++q) {
@@ -240,11 +251,8 @@ TEST(Multigrid, IsASymmetricOperator)
 TEST(ConjugateGradients, KeepNothingOfASolveThatMetNoNumber)
 {
   for (const Problem& problem : problems()) {
-    const Box box = problem.box();
-    Neighbourhood alone;
-    alone.comm = MPI_COMM_SELF;
-    Multigrid multigrid(box, {{0, 0, 0}, box.cells()}, alone);
-    multigrid.set_blocked(problem.blocked());
+    OnOneRank alone(problem);
+    Multigrid& multigrid = alone.multigrid;
     Level& level = multigrid.finest();
     ConjugateGradients solver(multigrid, nullptr, MPI_COMM_SELF);
     const auto solve = [&](float disturbance) {
@@ -267,11 +275,9 @@ TEST(Multigrid, LabelsTheComponentsThatFloodingFinds)
 {
   for (const double closed : {0.3, 0.45, 0.6, 0.75}) {
     const Problem problem{{14, 13, 12}, 1.1, 'N', closed};
-    const Box box = problem.box();
-    Neighbourhood alone;
-    alone.comm = MPI_COMM_SELF;
-    Multigrid multigrid(box, {{0, 0, 0}, box.cells()}, alone);
-    multigrid.set_blocked(problem.blocked());
+    OnOneRank alone(problem);
+    const Box& box = alone.box;
+    Multigrid& multigrid = alone.multigrid;
     std::vector<int> component;
     std::vector<char> floating;
     multigrid.label_components(component, floating);
