@@ -8,11 +8,11 @@ Runs benchmark_fluid_scaling on 2 and 4 ranks into DIR (default benchmarks/fluid
 prints the counts of messages, bytes and reductions beside those of the model, fits the waiting, prints expected efficiencies,
 and draws DIR/scaling.png: weak up to 4096 ranks with 64^3, 96^3, 128^3 cells on each of them in a cube, strong with 512^3 in all.
 
-Counts per rank and step, K cycles of the multigrid, L levels that ranks share, faces of A_l cells, q messages in an exchange (two
-for each axis along which blocks split the grid; only y and z are split):
+Counts per rank and step, K cycles of the multigrid, v_l sweeps down and up on the levels l that ranks share, faces of A_l cells, q
+messages in an exchange (two for each axis along which blocks split the grid; only y and z are split):
 
-    exchanges   17.25 + K (10 L + s)                  s = 1 where y is split: conjugate gradients' direction, else 0
-    bytes       8 x 30.5 A_0' + 4 K (5 sum A_l + s A_0)    summed over the q sides; doubles with edges, A' = (n + 2)(m + 2);
+    exchanges   17.25 + K (sum (4 v_l + 2) + s)       s = 1 where y is split: conjugate gradients' direction, else 0
+    bytes       8 x 30.5 A_0' + 4 K (sum (2 v_l + 1) A_l + s A_0)    summed over the q sides; doubles with edges, A' = (n + 2)(m + 2);
                                                       one colour of single precision, both for s
     reductions  21.75 + 3 K of a few numbers, and K sums of the first level that is no longer shared, padded to rows of 32
 
@@ -87,6 +87,11 @@ def blocks(ranks, shape):
     return min(pairs, key=lambda p: (p[0] - 1) * shape[2] + (p[1] - 1) * shape[1])
 
 
+def sweeps(cells, finest_cells):
+    """Down and up on a level, as src/poisson/multigrid.cpp."""
+    return 2 if cells > finest_cells / 4 else 3 if cells > finest_cells / 32 else 4
+
+
 def levels(shape, split):
     """Cells of a block along each axis on the levels that are shared, and all cells of the first that is not."""
     local = [shape[0], shape[1] / split[0], shape[2] / split[1]]
@@ -104,7 +109,8 @@ def counts(ranks, shape, cycles):
     split = blocks(ranks, shape)
     shared, repeated = levels(shape, split)
     along_y = split[0] > 1
-    exchanges = 17.25 + cycles * (10 * len(shared) + along_y)
+    visits = [2 * sweeps(math.prod(level), math.prod(shared[0])) + 1 for level in shared]  # exchanges of each colour
+    exchanges = 17.25 + cycles * (2 * sum(visits) + along_y)
     data, sides = 0.0, 0
     for axis in (1, 2):
         if split[axis - 1] == 1:
@@ -112,7 +118,8 @@ def counts(ranks, shape, cycles):
         sides += 2
         n, m = shared[0][0], shared[0][3 - axis]
         faces = [level[0] * level[3 - axis] for level in shared]
-        data += 2 * (8 * 30.5 * (n + 2) * (m + 2) + 4 * cycles * (5 * sum(faces) + along_y * faces[0]))
+        swept = sum(v * face for v, face in zip(visits, faces))
+        data += 2 * (8 * 30.5 * (n + 2) * (m + 2) + 4 * cycles * (swept + along_y * faces[0]))
     row = 32 * math.ceil((math.ceil(repeated[0] / 2) + 2) / 16)
     return {"messages": sides * exchanges, "bytes": data, "reductions": 21.75 + 3 * cycles,
             "gathered": cycles * 4 * row * (repeated[1] + 2) * (repeated[2] + 2),

@@ -10,7 +10,6 @@ namespace luff::poisson {
 
 namespace {
 
-constexpr int sweeps = 2;
 constexpr double coarsest_cells = 100;      // dense inverse of at most this size
 constexpr double shared_cells = 20000;      // below this, work is repeated on every rank rather than shared out
 constexpr double smallest_reduction = 1.4;  // a level must be smaller than the one before by this factor
@@ -18,6 +17,14 @@ constexpr double smallest_reduction = 1.4;  // a level must be smaller than the 
 double product(const Index3& n)
 {
   return static_cast<double>(n[0]) * n[1] * n[2];
+}
+
+constexpr int few_sweeps = 2;
+
+/// Sweeps down and up on a level: small ones cost little, and what they leave costs whole iterations.
+int sweeps_on(double cells, double finest_cells)
+{
+  return cells > finest_cells / 4.0 ? few_sweeps : cells > finest_cells / 32.0 ? 3 : 4;
 }
 
 std::array<std::vector<int>, 3> merge_all(const Box& box, double width, bool keep_blocks)
@@ -74,6 +81,8 @@ Multigrid::Multigrid(const Box& box, const IndexBox& owned, const Neighbourhood&
   const auto kind = source ? Level::Kind::Stored : Level::Kind::Product;
   levels_.push_back(std::make_unique<Level>(box, owned, ranks ? &neighbourhood : nullptr, kind));
   add_levels(neighbourhood);
+  for (const auto& level : levels_)
+    sweeps_.push_back(sweeps_on(product(level->box().cells()), product(box.cells())));
   if (source) {
     levels_[0]->coefficients().load(owned, source);
     levels_[0]->coefficients().close(levels_[0]->exchange());
@@ -261,6 +270,7 @@ void Multigrid::smooth_cross_terms(CrossTerms& finest)
 {
   coarse_cross_terms_.clear();
   cross_terms_.assign(1, &finest);
+  sweeps_.assign(levels_.size(), few_sweeps);  // more gain nothing here
   for (std::size_t l = 1; l + 1 < levels_.size(); ++l) {
     coarse_cross_terms_.push_back(std::make_unique<CrossTerms>(*levels_[l]));
     cross_terms_.push_back(coarse_cross_terms_.back().get());
@@ -326,6 +336,7 @@ bool Multigrid::waves_between_halos(std::size_t l) const
 
 void Multigrid::smooth_from_zero(std::size_t l)
 {
+  const int sweeps = sweeps_[l];
   Level& level = *levels_[l];
   CrossTerms* const cross = cross_terms_.empty() ? nullptr : cross_terms_[l];
   RowExchange& halo = level.exchange();
@@ -344,7 +355,7 @@ void Multigrid::smooth_from_zero(std::size_t l)
       halo.close_plane(level.r.data(), k, Colours::Both);
     }
   };
-  constexpr int prepare = 2 * sweeps;
+  const int prepare = 2 * sweeps;
   const auto stage = [&](int s, int k) {
     if (s == 0)
       level.start_plane(k);
@@ -390,7 +401,7 @@ void Multigrid::smooth(std::size_t l, const PlaneWork& after)
   const IndexBox& owned = level.layout().owned;
   const int threads = threads_for(owned);
   correction.begin_prolongation();
-  const int stages = 2 * sweeps + 1;
+  const int stages = 2 * sweeps_[l] + 1;
   const auto stage = [&](int s, int k) {
     if (s == 0)
       correction.prolong_plane(k);
@@ -448,7 +459,7 @@ void Multigrid::smooth_with_cross_terms(std::size_t l, const PlaneWork& after)
     after(k);
   };
   constexpr int first_sweep = 3;
-  constexpr int last = first_sweep + 2 * sweeps;
+  const int last = first_sweep + 2 * sweeps_[l];
   const auto stage = [&](int s, int k) {
     if (s == 0) {
       transfers_[l]->prolong_plane(k);

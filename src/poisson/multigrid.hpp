@@ -12,8 +12,8 @@
 
 namespace luff::poisson {
 
-/// A symmetric V-cycle: two sweeps of red-black Gauss-Seidel down and two, mirrored, up.  Cells merge where they are
-/// narrow until they are about cubes, then everywhere.
+/// A symmetric V-cycle: two sweeps of red-black Gauss-Seidel down and two, mirrored, up, three or four on small levels.
+/// Cells merge where they are narrow until they are about cubes, then everywhere.
 ///
 /// The finest levels are shared out among ranks; from the first small one on, every rank works on the whole.
 class Multigrid {
@@ -60,6 +60,7 @@ class Multigrid {
 
   MPI_Comm comm_;
   std::vector<std::unique_ptr<Level>> levels_;
+  std::vector<int> sweeps_;  // down and up, per level
   std::vector<std::unique_ptr<Transfer>> transfers_;
   std::vector<Cuts> cuts_;
   std::vector<CrossTerms*> cross_terms_;  // per level but the coarsest; empty where not smoothed
