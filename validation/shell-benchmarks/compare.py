@@ -46,6 +46,7 @@ class Benchmark:
     curves: list
     meshes: dict  # label -> settings of the case
     settings: dict = field(default_factory=dict)
+    case: str = None  # its name, where that is another one
     limit: tuple = None  # published first maximum of the load factor, and the first curve's displacement there
 
 
@@ -82,6 +83,43 @@ def meshes(shell, *choices):
 def refined(shell, patterns, sizes):
     return meshes(shell, *((pattern, n, n) for pattern in patterns for n in sizes))
 
+
+def pull_out(divisions, patterns, **more):
+    return Benchmark(
+        [
+            Curve("W_A", "force", "z", 1, table("sze2004_pullout_open_cylinder.csv", "W_A")),
+            Curve("-U_B", "side", "y", -1, table("sze2004_pullout_open_cylinder.csv", "minus_U_B")),
+            Curve("-U_C", "end", "y", -1, table("sze2004_pullout_open_cylinder.csv", "minus_U_C")),
+        ],
+        meshes("cylinder", *((pattern, n, 2 * n // 3) for pattern in patterns for n in divisions)),
+        **more,
+    )
+
+
+def diaphragms(patterns, **more):
+    return Benchmark(
+        [
+            Curve("-W_A", "force", "z", -1, table("sze2004_pinched_cylinder_diaphragms.csv", "minus_W_A")),
+            Curve("U_B", "side", "y", 1, table("sze2004_pinched_cylinder_diaphragms.csv", "U_B")),
+            Curve("-W_A, solid", "force", "z", -1, table("calculix_pinched_cylinder_diaphragms.csv", "C3D20R_minus_W_A")),
+            Curve("U_B, solid", "side", "y", 1, table("calculix_pinched_cylinder_diaphragms.csv", "C3D20R_U_B")),
+        ],
+        meshes("cylinder", *((pattern, n, 2 * n // 3) for pattern in patterns for n in (60, 90, 120))),
+        **more,
+    )
+
+
+def semi_cylinder(divisions, **more):
+    return Benchmark(
+        [Curve("-W", "force", "z", -1, table("sze2004_pinched_semicylinder.csv", "minus_W"))],
+        meshes("cylinder", *((pattern, n, 4 * n // 3) for pattern, sizes in divisions.items() for n in sizes)),
+        **more,
+    )
+
+
+smoothed = {"shell.cylinder.membrane": '"smoothed"'}
+hencky = {"shell.cylinder.material.model": '"hencky"'}
+graded = {"shell.cylinder.mesh.grading": "[64, 0.015625]"}
 
 BENCHMARKS = {
     "plate-supported": Benchmark(
@@ -122,31 +160,17 @@ BENCHMARKS = {
         ],
         refined("hemisphere", ("diagonal", "irregular"), (16, 32, 64, 128)),
     ),
-    "pullout-open-cylinder": Benchmark(
-        [
-            Curve("W_A", "force", "z", 1, table("sze2004_pullout_open_cylinder.csv", "W_A")),
-            Curve("-U_B", "side", "y", -1, table("sze2004_pullout_open_cylinder.csv", "minus_U_B")),
-            Curve("-U_C", "end", "y", -1, table("sze2004_pullout_open_cylinder.csv", "minus_U_C")),
-        ],
-        meshes("cylinder", *((pattern, n, 2 * n // 3) for pattern in ("alternating", "irregular") for n in (48, 72, 108))),
-    ),
+    "pullout-open-cylinder": pull_out((48, 72, 108), ("alternating", "irregular")),
+    "pullout-hencky": pull_out((48, 72, 108), ("alternating",), settings=hencky, case="pullout-open-cylinder"),
+    "pullout-hencky-graded": pull_out((48, 72, 108), ("alternating",), settings=hencky | graded, case="pullout-open-cylinder"),
     "pullout-spread": Benchmark(
         [Curve("W_A", "force", "z", 1, []), Curve("-U_B", "side", "y", -1, []), Curve("-U_C", "end", "y", -1, [])],
         meshes("cylinder", *(("alternating", n, 2 * n // 3) for n in (33, 48, 72))),
     ),
-    "pinched-cylinder-diaphragms": Benchmark(
-        [
-            Curve("-W_A", "force", "z", -1, table("sze2004_pinched_cylinder_diaphragms.csv", "minus_W_A")),
-            Curve("U_B", "side", "y", 1, table("sze2004_pinched_cylinder_diaphragms.csv", "U_B")),
-            Curve("-W_A, solid", "force", "z", -1, table("calculix_pinched_cylinder_diaphragms.csv", "C3D20R_minus_W_A")),
-            Curve("U_B, solid", "side", "y", 1, table("calculix_pinched_cylinder_diaphragms.csv", "C3D20R_U_B")),
-        ],
-        meshes("cylinder", *((pattern, n, 2 * n // 3) for pattern in ("alternating", "irregular") for n in (60, 90, 120))),
-    ),
-    "pinched-semicylinder": Benchmark(
-        [Curve("-W", "force", "z", -1, table("sze2004_pinched_semicylinder.csv", "minus_W"))],
-        meshes("cylinder", *((pattern, n, 4 * n // 3) for pattern in ("alternating", "irregular") for n in (24, 36, 48))),
-    ),
+    "pinched-cylinder-diaphragms": diaphragms(("alternating", "irregular")),
+    "diaphragms-smoothed": diaphragms(("alternating",), settings=smoothed, case="pinched-cylinder-diaphragms"),
+    "pinched-semicylinder": semi_cylinder({"alternating": (24, 36, 48, 72, 96), "irregular": (24, 36, 48)}),
+    "semicylinder-smoothed": semi_cylinder({"alternating": (24, 36, 48, 72, 96)}, settings=smoothed, case="pinched-semicylinder"),
     "hinged-roof": Benchmark(
         [Curve("-w", "force", "z", -1, [])], refined("roof", ("alternating", "irregular"), (12, 24, 48)), limit=first_maximum(12.7)
     ),
@@ -288,7 +312,7 @@ def compare(name, benchmark, out):
     for number, (mesh, settings) in enumerate(benchmark.meshes.items()):
         folder = out / name / mesh.replace(" ", "-")
         folder.parent.mkdir(parents=True, exist_ok=True)
-        summary, seconds = run(name, {**benchmark.settings, **settings}, folder)
+        summary, seconds = run(benchmark.case or name, {**benchmark.settings, **settings}, folder)
         for curve in benchmark.curves:
             if benchmark.limit:
                 path, last = report_limit(name, mesh, curve, benchmark.limit, summary, seconds, folder)
