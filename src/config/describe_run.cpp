@@ -155,6 +155,12 @@ void describe(Schema& s, ImmersedOptions& immersed)
   s.key("scheme", immersed.scheme,
         {.doc = "`cut-link`: differences across a surface end on it. `curvib`: the velocity of the cells beside a "
                 "surface is reconstructed along its normal."});
+  s.key("edges", immersed.edges,
+        {.doc = "What free edges of sheets cover. `whole`: the faces of the grid whose link of centres the sheet "
+                "crosses, so that its length is a whole number of cells. `partial`: of each face what lies behind the "
+                "sheet; errors fall evenly as grids are refined."});
+  s.rule(immersed.scheme == ImmersedScheme::CutLink || immersed.edges == EdgeCover::Whole, "edges",
+         "must be \"whole\" with `scheme = \"curvib\"`");
 }
 
 void describe(Schema& s, CouplingOptions& coupling)

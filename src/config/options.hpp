@@ -403,10 +403,12 @@ struct PressureOptions {
 };
 
 enum class ImmersedScheme { CutLink, Curvib };
+enum class EdgeCover { Whole, Partial };
 
 /// [immersed]
 struct ImmersedOptions {
   ImmersedScheme scheme = ImmersedScheme::CutLink;
+  EdgeCover edges = EdgeCover::Whole;
 
   bool operator==(const ImmersedOptions&) const = default;
 };

@@ -174,6 +174,11 @@ inline Words<ImmersedScheme> words(ImmersedScheme)
   return {{{ImmersedScheme::CutLink, "cut-link"}, {ImmersedScheme::Curvib, "curvib"}}};
 }
 
+inline Words<EdgeCover> words(EdgeCover)
+{
+  return {{{EdgeCover::Whole, "whole"}, {EdgeCover::Partial, "partial"}}};
+}
+
 inline Words<CouplingScheme> words(CouplingScheme)
 {
   return {{{CouplingScheme::Strong, "strong"}, {CouplingScheme::Loose, "loose"}}};

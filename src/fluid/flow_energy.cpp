@@ -26,11 +26,11 @@ bool on_low_side(const grid::Grid& grid, int axis, const Index3& face)
   return !grid.ranks().periodic(axis) && face[axis] == 0;
 }
 
-/// nu A |u - u_b|^2/h_k of both cells beside a cut face, those of the fluid.
+/// nu c A |u - u_b|^2/h_k, c the part that is covered, of both cells beside a cut face, those of the fluid.
 double cut_dissipation(const Fields& f, const immersed::CutFace& face)
 {
   const immersed::CutLinks& links = f.flow.links();
-  const double area = f.grid.area(face.axis, face.cell[0], face.cell[1], face.cell[2]);
+  const double area = face.cover * f.grid.area(face.axis, face.cell[0], face.cell[1], face.cell[2]);
   const double length = immersed::distance_across(f.grid, face.axis, face.cell);
   const immersed::StageTime now{1.0, immersed::SheetVelocity::Current};
   double sum = 0.0;
@@ -46,16 +46,18 @@ double cut_dissipation(const Fields& f, const immersed::CutFace& face)
   return f.flow.options().viscosity * sum;
 }
 
-/// sum_f F_f . (u_N - u_P) over the low faces of owned cells that no surface cuts and no side holds.
+/// sum_f F_f . (u_N - u_P) over the low faces of owned cells that no side holds, of each the part that no surface
+/// covers.
 double open_dissipation(const Fields& f)
 {
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis)
     for_each_cell_in_order(f.grid.owned(), [&](int i, int j, int k) {
       const Index3 c{i, j, k};
-      if (on_low_side(f.grid, axis, c) || f.flow.links().is_inside(c) || f.flow.links().is_cut(axis, c))
+      const double open = 1.0 - f.flow.links().cover(axis, c);
+      if (on_low_side(f.grid, axis, c) || f.flow.links().is_inside(c) || open == 0.0)
         return;
-      sum += gradient_flux(f.grid, f.u, axis, c).dot(at(f.u, c) - at(f.u, stepped(c, axis, -1)));
+      sum += open * gradient_flux(f.grid, f.u, axis, c).dot(at(f.u, c) - at(f.u, stepped(c, axis, -1)));
     });
   return f.flow.options().viscosity * sum;
 }

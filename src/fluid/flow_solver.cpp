@@ -59,6 +59,8 @@ FlowSolver::FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries b
 {
   if (grid.kind() == grid::Kind::Curvilinear)
     cross_terms_.emplace(grid);
+  if (options_.edges_cover_in_part)
+    links_.cover_in_part();
   if (options_.immersed == ImmersedScheme::Curvib) {
     wall_nodes_.emplace(grid);
     links_.hold_within_step();
@@ -268,7 +270,7 @@ poisson::Report FlowSolver::project(std::span<const Vec3> sheet_velocity)
 
 void FlowSolver::accept()
 {
-  links_.accept();
+  links_.accept(views(std::as_const(U_)));
   if (wall_nodes_)
     wall_nodes_->accept(links_);
   std::swap(u_before_, state_.u);
@@ -309,7 +311,7 @@ void FlowSolver::find_cut_links(const immersed::SheetMotion& predicted, double s
   std::vector<poisson::FaceIndex> blocked;
   blocked.reserve(links_.faces().size());
   for (const immersed::CutFace& face : links_.faces())
-    blocked.push_back({face.axis, face.cell});
+    blocked.push_back({face.axis, face.cell, 1.0 - face.cover});
   pressure_->set_blocked(blocked);
   balance_.update(links_, *pressure_);
 }
@@ -414,7 +416,7 @@ void FlowSolver::freeze_pressure_push(const Stage& stage)
   const std::vector<immersed::CutCell>& cells = links_.cells();
   pressure_push_.resize(cells.size());
   for (std::size_t n = 0; n < cells.size(); ++n)
-    pressure_push_[n] = stage.end * step_.dt * immersed::pressure_gradient(grid_, cells[n], p_.view());
+    pressure_push_[n] = stage.end * step_.dt * immersed::pressure_gradient(grid_, links_, cells[n], p_.view());
 }
 
 /// u^n + du - c dt G p of the latest pressure in the donors of wall nodes.
@@ -422,8 +424,8 @@ void FlowSolver::give_to_wall_nodes(const Stage& stage)
 {
   constexpr int open = immersed::open_link;
   for (const Index3& c : wall_nodes_->donors()) {
-    const Vec3 push =
-        stage.end * step_.dt * immersed::pressure_gradient(grid_, {c, {open, open, open, open, open, open}}, p_.view());
+    const Vec3 push = stage.end * step_.dt *
+                      immersed::pressure_gradient(grid_, links_, {c, {open, open, open, open, open, open}}, p_.view());
     for (int d = 0; d < 3; ++d)
       given_[d].view()(c) = state_.u[d].view()(c) + increment_[d].view()(c) - push[d];
   }

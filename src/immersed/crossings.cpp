@@ -62,14 +62,15 @@ int side_of_edge(double area, const Point2& from, const Point2& to, bool b_moves
 /// One triangle and the lines along one axis.
 class LineSearch {
  public:
-  LineSearch(const grid::Grid& grid, int axis, const Corners& x, int triangle, const std::array<Range, 3>& around)
-      : grid_(grid), a_(axis), x_(x), triangle_(triangle), links_(around[axis])
+  /// `faces`: along the axis, those that hits are wanted of.
+  LineSearch(const grid::Grid& grid, int axis, const Corners& x, int triangle, const Range& links, const Range& faces)
+      : grid_(grid), a_(axis), x_(x), triangle_(triangle), links_(links), faces_(faces)
   {
     for (int m = 0; m < 3; ++m)
       shadow_[m] = projected(x[m], axis);
   }
 
-  /// Appends the hit of the line through the centres (cell[b], cell[c]), if there is one and this rank owns its face.
+  /// Appends the hit of the line through the centres (cell[b], cell[c]), if there is one and its face is wanted.
   void hit(Index3 cell, std::vector<Crossing>& found)
   {
     line_ = {grid_.centre(b_, cell[b_]), grid_.centre(c_, cell[c_])};
@@ -173,7 +174,7 @@ class LineSearch {
     const double theta = distance_to_hit(grid_.centre(a_, above - 1))[0] / grid_.distance(a_, above);
     Crossing crossing{a_, cell, std::clamp(theta, 0.0, largest_below_one), triangle_, weights_, side_};
     const auto append_at = [&](int face) {
-      if (face < grid_.owned().lo[a_] || face > grid_.owned().hi[a_])
+      if (face < faces_.first || face >= faces_.last)
         return;
       crossing.cell[a_] = face;
       found.push_back(crossing);
@@ -190,6 +191,7 @@ class LineSearch {
   const Corners& x_;
   int triangle_;
   Range links_;
+  Range faces_;
   std::array<Point2, 3> shadow_{};
   Point2 line_{};
   std::array<double, 3> areas_{};
@@ -207,7 +209,7 @@ void cross_lines(const grid::Grid& grid, int axis, const Corners& x, int triangl
   const Range lines_c = clipped(around[c], owned.lo[c], owned.hi[c]);
   if (lines_b.first >= lines_b.last || lines_c.first >= lines_c.last)
     return;
-  LineSearch search(grid, axis, x, triangle, around);
+  LineSearch search(grid, axis, x, triangle, around[axis], {owned.lo[axis], owned.hi[axis] + 1});
   Index3 cell{};
   for (cell[c] = lines_c.first; cell[c] < lines_c.last; ++cell[c])
     for (cell[b] = lines_b.first; cell[b] < lines_b.last; ++cell[b])
@@ -227,6 +229,22 @@ void sort(std::vector<Crossing>& crossings, const Index3& cells)
     const std::int64_t at_q = place(q);
     return at_p != at_q ? at_p < at_q : std::tie(p.theta, p.triangle) < std::tie(q.theta, q.triangle);
   });
+}
+
+std::vector<Crossing> crossings_of_line(const grid::Grid& grid, int axis, const Index3& cell,
+                                        std::span<const Vec3> positions, std::span<const std::array<int, 3>> triangles,
+                                        std::span<const int> among)
+{
+  std::vector<Crossing> found;
+  for (const int t : among) {
+    const auto& corner = triangles[t];
+    const Corners x{positions[corner[0]], positions[corner[1]], positions[corner[2]]};
+    const auto [low, high] = std::minmax({x[0][axis], x[1][axis], x[2][axis]});
+    LineSearch search(grid, axis, x, t, displaced_centres_within(grid, axis, low, high), {0, grid.cells()[axis]});
+    search.hit(cell, found);
+  }
+  sort(found, grid.cells());
+  return found;
 }
 
 std::vector<Crossing> find_crossings(const grid::Grid& grid, std::span<const Vec3> positions,

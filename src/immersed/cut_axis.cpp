@@ -8,16 +8,27 @@
 
 namespace luff::immersed {
 
-CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis, const StageTime& time)
+LinkForms::LinkForms(const CutLinks& links, const CutCell& cut, int axis)
+{
+  const std::array<double, 2> covered{cover(links, cut, axis, 0), cover(links, cut, axis, 1)};
+  for (const bool low : {false, true})
+    for (const bool high : {false, true}) {
+      const double weight = (low ? covered[0] : 1.0 - covered[0]) * (high ? covered[1] : 1.0 - covered[1]);
+      if (weight > 0.0)
+        forms_[count_++] = {{low, high}, weight};
+    }
+}
+
+CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis, const StageTime& time,
+                 const std::array<bool, 2>& as_cut)
 {
   CutAxis result;
   for (int side = 0; side < 2; ++side) {
     result.distance[side] = distance_across(grid, axis, stepped(cut.cell, axis, side));
     result.length[side] = result.distance[side];
-    const int f = cut.face[2 * axis + side];
-    if (f == open_link)
+    if (!as_cut[side])
       continue;
-    const CutFace& face = links.faces()[f];
+    const CutFace& face = links.faces()[cut.face[2 * axis + side]];
     result.hit[side] = side == 1 ? face.first : face.last;
     const double theta = links.theta(result.hit[side], time);
     result.theta[side] = side == 1 ? theta : 1.0 - theta;
@@ -31,6 +42,11 @@ CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& c
       result.area_ratio[side] = centre_area_vector(grid, axis, cut.cell).norm() / grid.area(axis, i, j, k);
     }
   return result;
+}
+
+CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis, const StageTime& time)
+{
+  return cut_axis(grid, links, cut, axis, time, {cut.face[2 * axis] != open_link, cut.face[2 * axis + 1] != open_link});
 }
 
 std::array<Vec3, 2> velocities_beside(const CutLinks& links, const CutCell& cut, int axis, const CutAxis& along,

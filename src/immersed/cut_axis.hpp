@@ -31,7 +31,36 @@ struct CutAxis {
   }
 };
 
-/// The links with the sheet where it is at a time of the step.
+/// Which of the two links of a cell along an axis count as cut, and how much this counts.
+struct LinkForm {
+  std::array<bool, 2> cut{};
+  double weight = 1.0;
+};
+
+/// The forms that the stencils of a cell along an axis are made of: a link of whose face the sheet covers the part c is
+/// cut with weight c and open with weight 1 - c.
+class LinkForms {
+ public:
+  LinkForms(const CutLinks& links, const CutCell& cut, int axis);
+  [[nodiscard]] const LinkForm* begin() const { return forms_.data(); }
+  [[nodiscard]] const LinkForm* end() const { return forms_.data() + count_; }
+
+ private:
+  std::array<LinkForm, 4> forms_{};
+  int count_ = 0;
+};
+
+/// Part of the face that the sheet covers on a side of a cell; 0: open.
+[[nodiscard]] inline double cover(const CutLinks& links, const CutCell& cut, int axis, int side)
+{
+  const int f = cut.face[2 * axis + side];
+  return f == open_link ? 0.0 : links.faces()[f].cover;
+}
+
+/// The links in one form, with the sheet where it is at a time of the step.
+[[nodiscard]] CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis,
+                               const StageTime& time, const std::array<bool, 2>& as_cut);
+/// In the form in which every cut link counts as cut.
 [[nodiscard]] CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis,
                                const StageTime& time);
 

@@ -68,22 +68,23 @@ CutCellTerms momentum_terms(const grid::Grid& grid, const CutLinks& links, const
 {
   CutCellTerms terms{Vec3::Zero(), Vec3::Zero(), 0.0};
   const Vec3 u_here = at(u, cut.cell);
-  for (int axis = 0; axis < 3; ++axis) {
-    const CutAxis along_now = cut_axis(grid, links, cut, axis, now);
-    const CutAxis along_then = cut_axis(grid, links, cut, axis, then);
-    const std::array<Vec3, 2> u_beside = velocities_beside(links, cut, axis, along_now, u, now);
-    for (int side = 0; side < 2; ++side) {
-      if (along_now.cut(side)) {
-        const double v = along_then.exchange(side, viscosity);
-        terms.wall_rate += v;
-        terms.wall_source += v * links.velocity(along_then.hit[side], then);
-      } else {
-        terms.explicit_rate += along_now.exchange(side, viscosity) * (u_beside[side] - u_here);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const LinkForm& form : LinkForms(links, cut, axis)) {
+      const CutAxis along_now = cut_axis(grid, links, cut, axis, now, form.cut);
+      const CutAxis along_then = cut_axis(grid, links, cut, axis, then, form.cut);
+      const std::array<Vec3, 2> u_beside = velocities_beside(links, cut, axis, along_now, u, now);
+      for (int side = 0; side < 2; ++side) {
+        if (form.cut[side]) {
+          const double v = form.weight * along_then.exchange(side, viscosity);
+          terms.wall_rate += v;
+          terms.wall_source += v * links.velocity(along_then.hit[side], then);
+        } else {
+          terms.explicit_rate += form.weight * along_now.exchange(side, viscosity) * (u_beside[side] - u_here);
+        }
       }
+      terms.explicit_rate -= form.weight * speed_across(grid, u_here, axis, cut.cell) /
+                             (along_now.length[0] + along_now.length[1]) * (u_beside[1] - u_beside[0]);
     }
-    terms.explicit_rate -= speed_across(grid, u_here, axis, cut.cell) / (along_now.length[0] + along_now.length[1]) *
-                           (u_beside[1] - u_beside[0]);
-  }
   return terms;
 }
 
@@ -91,29 +92,35 @@ Vec3 wall_source(const grid::Grid& grid, const CutLinks& links, const CutCell& c
                  const StageTime& then)
 {
   Vec3 source = Vec3::Zero();
-  for (int axis = 0; axis < 3; ++axis) {
-    const CutAxis axis_link = cut_axis(grid, links, cut, axis, then);
-    for (int side = 0; side < 2; ++side)
-      if (axis_link.cut(side))
-        source += axis_link.exchange(side, viscosity) * links.velocity(axis_link.hit[side], then);
-  }
+  for (int axis = 0; axis < 3; ++axis)
+    for (const LinkForm& form : LinkForms(links, cut, axis)) {
+      const CutAxis along = cut_axis(grid, links, cut, axis, then, form.cut);
+      for (int side = 0; side < 2; ++side)
+        if (form.cut[side])
+          source += form.weight * along.exchange(side, viscosity) * links.velocity(along.hit[side], then);
+    }
   return source;
 }
 
-Vec3 pressure_gradient(const grid::Grid& grid, const CutCell& cut, const View<const double>& p)
+Vec3 pressure_gradient(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, const View<const double>& p)
 {
   Vec3 slope = Vec3::Zero();
   for (int axis = 0; axis < 3; ++axis) {
-    const std::array<bool, 2> open{cut.face[2 * axis] == open_link, cut.face[2 * axis + 1] == open_link};
     const std::array<double, 2> d{distance_across(grid, axis, cut.cell),
                                   distance_across(grid, axis, stepped(cut.cell, axis, 1))};
-    const double p_here = p(cut.cell);
-    const double low = open[0] ? (p_here - p(stepped(cut.cell, axis, -1))) / d[0] : 0.0;
-    const double high = open[1] ? (p(stepped(cut.cell, axis, 1)) - p_here) / d[1] : 0.0;
-    if (open[0] && open[1])
-      slope[axis] = (d[1] * low + d[0] * high) / (d[0] + d[1]);
-    else
-      slope[axis] = low + high;
+    double known = 0.0;
+    for (const LinkForm& form : LinkForms(links, cut, axis)) {
+      if (form.cut[0] && form.cut[1])
+        continue;
+      const double p_here = p(cut.cell);
+      const double low = form.cut[0] ? 0.0 : (p_here - p(stepped(cut.cell, axis, -1))) / d[0];
+      const double high = form.cut[1] ? 0.0 : (p(stepped(cut.cell, axis, 1)) - p_here) / d[1];
+      const bool both = !form.cut[0] && !form.cut[1];
+      slope[axis] += form.weight * (both ? (d[1] * low + d[0] * high) / (d[0] + d[1]) : low + high);
+      known += form.weight;
+    }
+    if (known > 0.0)
+      slope[axis] /= known;
   }
   return gradient_of_slopes(grid, cut, slope);
 }
@@ -121,29 +128,37 @@ Vec3 pressure_gradient(const grid::Grid& grid, const CutCell& cut, const View<co
 void recover_velocity(const grid::Grid& grid, const CutLinks& links, const View3<const double>& U,
                       const StageTime& time, const View3<double>& u)
 {
+  // Through a face covered in part the open link sees the velocity of the open part.
+  const auto through = [&](const CutCell& cut, int axis, int side) {
+    const int f = cut.face[2 * axis + side];
+    if (f != open_link)
+      return links.open_velocity(links.faces()[f], U, time);
+    const auto [i, j, k] = stepped(cut.cell, axis, side);
+    return U[axis](i, j, k) / grid.area(axis, i, j, k);
+  };
   for (const CutCell& cut : links.cells()) {
     // The rows of S . u = flux, all divided by the areas of faces.
-    Mat3 S = Mat3::Identity();
-    Vec3 flux;
-    for (int axis = 0; axis < 3; ++axis) {
-      const CutAxis along = cut_axis(grid, links, cut, axis, time);
-      std::array<double, 2> value{};
-      std::array<double, 2> distance{};
-      std::array<Vec3, 2> normal;
-      for (int side = 0; side < 2; ++side) {
-        const Index3 face = stepped(cut.cell, axis, side);
-        normal[side] = face_normal(grid, axis, face);
-        if (along.cut(side)) {
-          value[side] = links.velocity(along.hit[side], time).dot(normal[side]);
-          distance[side] = std::max(along.theta[side], 0.0) * along.distance[side];
-        } else {
-          value[side] = U[axis](face) / grid.area(axis, face[0], face[1], face[2]);
-          distance[side] = 0.5 * along.width;
+    Mat3 S = Mat3::Zero();
+    Vec3 flux = Vec3::Zero();
+    for (int axis = 0; axis < 3; ++axis)
+      for (const LinkForm& form : LinkForms(links, cut, axis)) {
+        const CutAxis along = cut_axis(grid, links, cut, axis, time, form.cut);
+        std::array<double, 2> value{};
+        std::array<double, 2> distance{};
+        std::array<Vec3, 2> normal;
+        for (int side = 0; side < 2; ++side) {
+          normal[side] = face_normal(grid, axis, stepped(cut.cell, axis, side));
+          if (form.cut[side]) {
+            value[side] = links.velocity(along.hit[side], time).dot(normal[side]);
+            distance[side] = std::max(along.theta[side], 0.0) * along.distance[side];
+          } else {
+            value[side] = through(cut, axis, side);
+            distance[side] = 0.5 * along.width;
+          }
         }
+        flux[axis] += form.weight * between(value, distance);
+        S.row(axis) += form.weight * between(normal, distance).transpose();
       }
-      flux[axis] = between(value, distance);
-      S.row(axis) = between(normal, distance).transpose();
-    }
     const Vec3 velocity = grid.kind() == grid::Kind::Curvilinear ? Vec3(S.partialPivLu().solve(flux)) : flux;
     for (int d = 0; d < 3; ++d)
       u[d](cut.cell) = velocity[d];

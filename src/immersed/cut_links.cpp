@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace luff::immersed {
 
@@ -37,9 +38,13 @@ void CutLinks::freeze(const SheetMotion& predicted, double dt, double speed, con
   vertex_velocity_ = predicted.velocity;
   vertex_acceleration_ = predicted.acceleration;
   current_vertex_velocity_ = predicted.velocity;
-  triangles_ = predicted.triangles;
+  if (triangles_ != predicted.triangles) {
+    triangles_ = predicted.triangles;
+    free_edges_ = covers_in_part_ ? free_edges(triangles_) : std::vector<FreeEdge>();
+  }
   bodies_ = predicted.bodies;
   find_crossings(predicted.position);
+  find_covers();
   interpolate_prediction(predicted);
   find_faces();
   find_cells();
@@ -115,6 +120,21 @@ void CutLinks::find_crossings(std::span<const Vec3> positions)
   crossings_ = tree_->find_crossings(positions, triangles_);
 }
 
+/// Adds what covers faces beside the lines of centres to the crossings, on links that no sheet crosses.
+void CutLinks::find_covers()
+{
+  covers_ = edge_covers(grid_, positions_, triangles_, free_edges_);
+  const std::vector<Crossing> on_lines = crossings_;
+  const auto order = [](const Crossing& a, const Crossing& b) {
+    return std::tuple(a.axis, a.cell[2], a.cell[1], a.cell[0]) < std::tuple(b.axis, b.cell[2], b.cell[1], b.cell[0]);
+  };
+  for (const EdgeCover& cover : covers_)
+    if (!cover.on_line && !std::binary_search(on_lines.begin(), on_lines.end(), cover.hit, order))
+      crossings_.push_back(cover.hit);
+  if (crossings_.size() > on_lines.size())
+    sort(crossings_, grid_.cells());
+}
+
 void CutLinks::set_velocity(std::span<const Vec3> velocity)
 {
   current_vertex_velocity_.assign(velocity.begin(), velocity.end());
@@ -166,6 +186,11 @@ void CutLinks::find_faces()
     mark_[hit.axis].view()(hit.cell) = static_cast<int>(faces_.size());
     faces_.push_back({.axis = hit.axis, .cell = hit.cell, .first = q, .last = q});
   }
+  for (const EdgeCover& cover : covers_) {
+    CutFace& face = faces_[mark_[cover.hit.axis].view()(cover.hit.cell)];
+    if (face.first == face.last)
+      face.cover = cover.part;
+  }
 }
 
 /// The cells inside bodies, and those of the fluid beside cut faces.
@@ -194,18 +219,37 @@ void CutLinks::find_cells()
   }
 }
 
+namespace {
+
+/// Covered part of a face from which on its link counts as crossed: half of it, where the edge of a sheet reaches the
+/// line.
+constexpr double crossed_from = 0.5;
+
+}  // namespace
+
+bool CutLinks::is_crossed(int face) const
+{
+  return face != open_link && faces_[face].cover >= crossed_from;
+}
+
+bool CutLinks::was_crossed(int axis, const Index3& cell) const
+{
+  const AcceptedOffset* const old = old_offset(key(axis, cell));
+  return old != nullptr && old->cover >= crossed_from;
+}
+
 /// The sheet swept over a cell's centre when the cut moved from one of its faces to the opposite one.
 void CutLinks::find_flipped()
 {
   flipped_.clear();
   for (const CutCell& cut : cells_)
     for (int a = 0; a < 3; ++a) {
-      const bool low = cut.face[2 * a] != open_link;
-      const bool high = cut.face[2 * a + 1] != open_link;
+      const bool low = is_crossed(cut.face[2 * a]);
+      const bool high = is_crossed(cut.face[2 * a + 1]);
       if (low == high)
         continue;
-      const bool was_low = was_cut(a, cut.cell);
-      const bool was_high = was_cut(a, stepped(cut.cell, a, 1));
+      const bool was_low = was_crossed(a, cut.cell);
+      const bool was_high = was_crossed(a, stepped(cut.cell, a, 1));
       if (was_low != was_high && was_low != low) {
         flipped_.push_back(cut.cell);
         break;
@@ -294,8 +338,13 @@ void CutLinks::start_offsets(double speed, const FluxHistory& flow)
   for (CutFace& face : faces_) {
     const auto* old = old_offset(key(face.axis, face.cell));
     const Vec3 surface = 0.5 * (at_start(face.first) + at_start(face.last));
-    face.offset = old != nullptr ? old->offset
-                                 : fluid_velocity(face, flow.U) - surface.dot(face_normal(grid_, face.axis, face.cell));
+    const double mean = fluid_velocity(face, flow.U);
+    const double open = old != nullptr && old->cover < 1.0 ? old->open : mean;
+    const double change = face.cover - (old != nullptr ? old->cover : 0.0);
+    face.open = open - mean;
+    face.offset = old != nullptr ? old->offset : 0.0;
+    if (change != 0.0)
+      face.offset += change * (open - surface.dot(face_normal(grid_, face.axis, face.cell)));
     if (decays_plainly(face))
       face.rate = -face.offset / face.decay_time;
     else
@@ -336,7 +385,7 @@ double CutLinks::rate_of_newly_cut(const CutFace& face, const FluxHistory& flow)
   const double rate = (fluid_velocity(face, flow.U) - fluid_velocity(face, flow.U_before)) / flow.dt -
                       acceleration.dot(face_normal(grid_, face.axis, face.cell));
   const double fastest = -fastest_return * face.offset / face.decay_time;
-  return std::clamp(rate, std::min(0.0, fastest), std::max(0.0, fastest));
+  return std::clamp(face.cover * rate, std::min(0.0, fastest), std::max(0.0, fastest));
 }
 
 double CutLinks::fluid_velocity(const CutFace& face, const View3<const double>& U) const
@@ -345,18 +394,27 @@ double CutLinks::fluid_velocity(const CutFace& face, const View3<const double>& 
   return U[face.axis](i, j, k) / grid_.area(face.axis, i, j, k);
 }
 
-double CutLinks::face_velocity(const CutFace& face, const StageTime& time) const
+/// c u_b . e + eps
+double CutLinks::covered_velocity(const CutFace& face, const StageTime& time) const
 {
   const Vec3 normal = face_normal(grid_, face.axis, face.cell);
   const double sheet = 0.5 * (velocity(face.first, time).dot(normal) + velocity(face.last, time).dot(normal));
-  return sheet + offset_at(face, time.fraction * dt_).value;
+  return face.cover * sheet + offset_at(face, time.fraction * dt_).value;
+}
+
+double CutLinks::open_velocity(const CutFace& face, const View3<const double>& U, const StageTime& time) const
+{
+  return (fluid_velocity(face, U) - covered_velocity(face, time)) / (1.0 - face.cover);
 }
 
 void CutLinks::impose_fluxes(const StageTime& time, const View3<double>& U) const
 {
   for (const CutFace& face : faces_) {
     const auto [i, j, k] = face.cell;
-    U[face.axis](i, j, k) = grid_.area(face.axis, i, j, k) * face_velocity(face, time);
+    const double area = grid_.area(face.axis, i, j, k);
+    double& flux = U[face.axis](i, j, k);
+    const double through_open_part = face.cover < 1.0 ? (1.0 - face.cover) * (flux + area * face.open) : 0.0;
+    flux = area * covered_velocity(face, time) + through_open_part;
   }
   impose_fluxes_inside(time, U);
 }
@@ -378,13 +436,15 @@ void CutLinks::impose_fluxes_inside(const StageTime& time, const View3<double>& 
     }
 }
 
-void CutLinks::accept()
+void CutLinks::accept(const View3<const double>& U)
 {
+  const StageTime now{1.0, SheetVelocity::Current};
   accepted_offsets_.resize(faces_.size());
   for (std::size_t n = 0; n < faces_.size(); ++n) {
     const CutFace& face = faces_[n];
     const Offset end = offset_at(face, dt_);
-    accepted_offsets_[n] = {key(face.axis, face.cell), end.value, end.rate};
+    accepted_offsets_[n] = {key(face.axis, face.cell), end.value, end.rate, face.cover,
+                            face.cover < 1.0 ? open_velocity(face, U, now) : 0.0};
   }
   accepted_inside_ = inside_;
 }
@@ -418,11 +478,13 @@ bool CutLinks::keeps(std::int64_t key) const
 FluxOffsets CutLinks::accepted_offsets() const
 {
   FluxOffsets mine;
-  for (const auto& [face, offset, rate] : accepted_offsets_)
-    if (keeps(face)) {
-      mine.face.push_back(face);
-      mine.offset.push_back(offset);
-      mine.rate.push_back(rate);
+  for (const AcceptedOffset& accepted : accepted_offsets_)
+    if (keeps(accepted.face)) {
+      mine.face.push_back(accepted.face);
+      mine.offset.push_back(accepted.offset);
+      mine.rate.push_back(accepted.rate);
+      mine.cover.push_back(accepted.cover);
+      mine.open.push_back(accepted.open);
     }
   for (const InsideCell& inside : accepted_inside_) {
     mine.inside.push_back(key(0, inside.cell));
@@ -435,7 +497,8 @@ void CutLinks::restore(const FluxOffsets& of_all_ranks)
 {
   accepted_offsets_.clear();
   for (std::size_t n = 0; n < of_all_ranks.face.size(); ++n)
-    accepted_offsets_.push_back({of_all_ranks.face[n], of_all_ranks.offset[n], of_all_ranks.rate[n]});
+    accepted_offsets_.push_back({of_all_ranks.face[n], of_all_ranks.offset[n], of_all_ranks.rate[n],
+                                 of_all_ranks.cover[n], of_all_ranks.open[n]});
   std::sort(accepted_offsets_.begin(), accepted_offsets_.end(),
             [](const AcceptedOffset& a, const AcceptedOffset& b) { return a.face < b.face; });
   accepted_inside_.clear();

@@ -14,6 +14,7 @@
 #include "core/vec3.hpp"
 #include "grid/grid.hpp"
 #include "immersed/crossings.hpp"
+#include "immersed/edge_cover.hpp"
 #include "immersed/inside.hpp"
 #include "immersed/link_tree.hpp"
 #include "immersed/rigid_velocity.hpp"
@@ -59,7 +60,9 @@ struct CutFace {
   Index3 cell{};
   int first = 0;          ///< index of the hit next to P
   int last = 0;           ///< index of the hit next to N
-  double offset = 0.0;    ///< flux velocity minus sheet velocity at t^n, eps [L/T]
+  double cover = 1.0;     ///< part c of the face that the sheet covers, less than 1 at its free edges
+  double open = 0.0;      ///< velocity through the open part at t^n, V, less the mean of the face U^n_f/A [L/T]
+  double offset = 0.0;    ///< flux velocity minus that of its parts at t^n, eps [L/T]
   double rate = 0.0;      ///< d eps/dt at t^n [L/T^2]
   double passage = 0.0;   ///< d/speed, the time that the flow takes across the link [T]
   double decay_time = 0;  ///< tau [T]
@@ -91,6 +94,8 @@ struct FluxOffsets {
   std::vector<std::int64_t> face;         ///< ascending
   std::vector<double> offset;             ///< eps [L/T]
   std::vector<double> rate;               ///< d eps/dt [L/T^2]
+  std::vector<double> cover;              ///< covered part of the face
+  std::vector<double> open;               ///< velocity through the open part [L/T]
   std::vector<std::int64_t> inside;       ///< cells inside closed bodies, by their low face of axis 0
   std::vector<std::int64_t> inside_body;  ///< number of the body
 };
@@ -102,11 +107,16 @@ class CutLinks {
 
   /// From now on all stages see the sheet where it is at the end of the step, as the nodes of the scheme curvib do.
   void hold_within_step() { held_ = true; }
+  /// From now on free edges cover parts of faces; without, a face is cut whole where its link is.
+  void cover_in_part() { covers_in_part_ = true; }
 
   /// Finds crossings, cut faces and cells, and starts the flux offsets from the accepted fluxes:
   ///
-  ///   eps = the old offset where the link was cut at t^n, U^n_f/A_f - u_b^0 . e where it was not,
-  ///   eps' = the old rate, or (U^n_f - U^{n-1}_f)/(A_f dt) - a_b^0 . e within bounds,  tau = 0.6 d/speed.
+  ///   eps = the old offset where the link was cut at t^n, c (U^n_f/A_f - u_b^0 . e) where it was not,
+  ///   eps' = the old rate, or c (U^n_f - U^{n-1}_f)/(A_f dt) - c a_b^0 . e within bounds,  tau = 0.6 d/speed.
+  ///
+  /// Where the covered part c of a face has changed, eps takes up what that changes the flux by, (c - c^n)(V^n - u_b^0
+  /// . e).
   ///
   /// At closed bodies u_b^0 is that of t^n, the predictor's u_b^0 - dt a_b^0, tau eps' = -eps and tau = d/speed: then
   /// the offsets around a body have no net flux, whichever cells it takes in and gives back, and need no source of
@@ -119,8 +129,9 @@ class CutLinks {
   /// Velocity u_b of the current coupling iterate at the vertices.
   void set_velocity(std::span<const Vec3> velocity);
 
-  /// Commits the flux offsets, decayed over the step, and which cells lie inside bodies.
-  void accept();
+  /// Commits the flux offsets, decayed over the step, the velocities through open parts of faces, which follow from the
+  /// fluxes of the new state, and which cells lie inside bodies.
+  void accept(const View3<const double>& U);
   /// The accepted offsets of the faces of this rank's cells, each face on one rank only.
   [[nodiscard]] FluxOffsets accepted_offsets() const;
   /// Go on from the accepted offsets of all ranks, in any order.
@@ -142,6 +153,12 @@ class CutLinks {
   [[nodiscard]] bool looks_inside(int hit, int link_side) const
   {
     return body_of_hit_[hit] >= 0 && (link_side == 1) == (crossings_[hit].side < 0);
+  }
+  /// The part of such a face that sheets cover.
+  [[nodiscard]] double cover(int axis, const Index3& cell) const
+  {
+    const int face = mark_[axis].view()(cell);
+    return face == open_link ? 0.0 : faces_[face].cover;
   }
   [[nodiscard]] const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
   /// Of the vertices, as frozen.
@@ -181,11 +198,16 @@ class CutLinks {
     const int body = body_of(triangle);
     return body < 0 ? Vec3(Vec3::Zero()) : body_velocity_[body].spin;
   }
-  /// U_f = A (u_b . e + eps(c dt)), into the fluxes of every cut face; U_f = A u_b . e between cells inside.
+  /// Before: U_f = U^n_f + what the open face has gained since.  After, on every cut face,
+  ///
+  ///   U_f = A [c u_b . e + (1 - c)(V^n + gained/A) + eps(t)];   U_f = A u_b . e between cells inside.
   void impose_fluxes(const StageTime& time, const View3<double>& U) const;
+  /// V = (U_f/A - c u_b . e - eps)/(1 - c) through the open part of a face that is covered in part.
+  [[nodiscard]] double open_velocity(const CutFace& face, const View3<const double>& U, const StageTime& time) const;
 
  private:
   void find_crossings(std::span<const Vec3> positions);
+  void find_covers();
   void interpolate_prediction(const SheetMotion& predicted);
   [[nodiscard]] double drift(int hit) const;
   void find_faces();
@@ -197,7 +219,7 @@ class CutLinks {
   [[nodiscard]] bool decays_plainly(const CutFace& face) const;
   [[nodiscard]] double rate_of_newly_cut(const CutFace& face, const FluxHistory& flow) const;
   [[nodiscard]] double fluid_velocity(const CutFace& face, const View3<const double>& U) const;
-  [[nodiscard]] double face_velocity(const CutFace& face, const StageTime& time) const;
+  [[nodiscard]] double covered_velocity(const CutFace& face, const StageTime& time) const;
   void impose_fluxes_inside(const StageTime& time, const View3<double>& U) const;
   [[nodiscard]] std::vector<RigidVelocity> rigid_velocities(std::span<const Vec3> velocity) const;
   [[nodiscard]] int body_of(int triangle) const;
@@ -208,12 +230,16 @@ class CutLinks {
     std::int64_t face;
     double offset;
     double rate;
+    double cover;
+    double open;
   };
   [[nodiscard]] const AcceptedOffset* old_offset(std::int64_t key) const;
-  [[nodiscard]] bool was_cut(int axis, const Index3& cell) const { return old_offset(key(axis, cell)) != nullptr; }
+  [[nodiscard]] bool was_crossed(int axis, const Index3& cell) const;
+  [[nodiscard]] bool is_crossed(int face) const;
 
   const grid::Grid& grid_;
   bool held_ = false;
+  bool covers_in_part_ = false;
   double dt_ = 0.0;
   std::unique_ptr<const LinkTree> tree_;  ///< of curvilinear grids, once there is a sheet
   std::vector<Vec3> positions_;           ///< of the vertices, as are the following
@@ -225,9 +251,11 @@ class CutLinks {
   std::vector<RigidVelocity> predicted_body_velocity_;
   std::vector<RigidVelocity> predicted_body_acceleration_;
   std::vector<RigidVelocity> body_velocity_;
-  std::vector<Crossing> crossings_;
-  std::vector<int> body_of_hit_;  ///< -1: not of a closed body
-  std::vector<Vec3> places_;      ///< of the hits
+  std::vector<FreeEdge> free_edges_;
+  std::vector<EdgeCover> covers_;
+  std::vector<Crossing> crossings_;  ///< and what stands for parts of the sheet beside the lines of centres
+  std::vector<int> body_of_hit_;     ///< -1: not of a closed body
+  std::vector<Vec3> places_;         ///< of the hits
   std::vector<Vec3> normals_;
   std::vector<double> drift_;  ///< of theta over the step
   std::vector<Vec3> predicted_velocity_;

@@ -29,24 +29,36 @@ struct HitView {
 
   [[nodiscard]] const CutFace& face(const CutLinks& links) const { return links.faces()[cut.face[2 * axis + side]]; }
   [[nodiscard]] int hit(const CutLinks& links) const { return side == 1 ? face(links).first : face(links).last; }
-  /// The link behind the cell, away from the hit, and the cell there.
-  [[nodiscard]] bool open_behind() const { return cut.face[2 * axis + 1 - side] == open_link; }
+  /// Of the face behind the cell, away from the hit, the part that is open, and the cell there.
+  [[nodiscard]] double open_behind(const CutLinks& links) const { return 1.0 - cover(links, cut, axis, 1 - side); }
   [[nodiscard]] Index3 behind() const { return stepped(cut.cell, axis, side == 1 ? -1 : 1); }
 };
 
-/// nu times the velocity gradient that the momentum stencil of the cell takes its momentum with; see sheet_loads().
-Vec3 wall_shear(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const HitView& view,
-                const CutAxis& along)
+/// nu times the velocity gradient that one form of the momentum stencil of the cell takes its momentum with; see
+/// sheet_loads().
+Vec3 wall_shear_of(const CutAxis& along, const CutLinks& links, const LoadFields& fields, const HitView& view)
 {
   const int side = view.side;
   const Vec3 u_b = links.velocity(view.hit(links), {1.0, SheetVelocity::Current});
-  Vec3 shear = fields.viscosity / along.length[side] * (fields.u_star[view.n] - u_b);
-  if (view.open_behind()) {
-    const double areas = along.area_ratio[side] / along.area_ratio[1 - side];
-    const Vec3 behind =
-        areas * fields.viscosity / along.length[1 - side] * (at(fields.u, view.behind()) - at(fields.u, view.cut.cell));
-    shear += (along.width / along.span - 1.0) * (shear - behind);
-  }
+  const Vec3 shear = fields.viscosity / along.length[side] * (fields.u_star[view.n] - u_b);
+  if (along.cut(1 - side))
+    return shear;
+  const double areas = along.area_ratio[side] / along.area_ratio[1 - side];
+  const Vec3 behind =
+      areas * fields.viscosity / along.length[1 - side] * (at(fields.u, view.behind()) - at(fields.u, view.cut.cell));
+  return shear + (along.width / along.span - 1.0) * (shear - behind);
+}
+
+/// The mean over the forms in which the hit's own link is cut.
+Vec3 wall_shear(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const HitView& view)
+{
+  const int side = view.side;
+  const StageTime now{1.0, SheetVelocity::Current};
+  Vec3 shear = Vec3::Zero();
+  for (const LinkForm& form : LinkForms(links, view.cut, view.axis))
+    if (form.cut[side])
+      shear += form.weight / view.face(links).cover *
+               wall_shear_of(cut_axis(grid, links, view.cut, view.axis, now, form.cut), links, fields, view);
   if (fields.cross == nullptr)
     return shear;
   const auto [i, j, k] = stepped(view.cut.cell, view.axis, side);
@@ -63,29 +75,35 @@ Vec3 turning_shear(const CutLinks& links, const LoadFields& fields, int triangle
 
 /// a_W - a_c: what the kinematic pressure rises by per length towards the sheet beyond what it does behind the cell,
 /// because the fluid at the cut face is accelerated otherwise than that at the face behind.  At closed bodies, which
-/// have fluid on one side of the cut face only, the steps of cells would be accelerated with them: nothing is added.
+/// have fluid on one side of the cut face only, the steps of cells would be accelerated with them: nothing is added;
+/// nor at a face that is covered in part, whose flux is not the sheet's alone.
 double slope_of_inertia(const CutLinks& links, const LoadFields& fields, const HitView& view)
 {
   const int hit = view.hit(links);
-  if (fields.acceleration.empty() || links.looks_inside(hit, 0) || links.looks_inside(hit, 1))
+  if (fields.acceleration.empty() || links.looks_inside(hit, 0) || links.looks_inside(hit, 1) ||
+      view.face(links).cover < 1.0)
     return 0.0;
   const std::array<double, 6>& a = fields.acceleration[view.n];
   const double towards = view.side == 1 ? 1.0 : -1.0;
-  const double behind = view.open_behind() ? a[2 * view.axis + 1 - view.side] : 0.0;
+  const double behind = view.open_behind(links) > 0.0 ? a[2 * view.axis + 1 - view.side] : 0.0;
   return towards * (behind - a[2 * view.axis + view.side]);
 }
 
 HitTraction one_sided(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const HitView& view)
 {
-  const CutAxis along = cut_axis(grid, links, view.cut, view.axis, {1.0, SheetVelocity::Current});
+  const Index3 face_behind = stepped(view.cut.cell, view.axis, 1 - view.side);
+  const double to_sheet = links.crossings()[view.hit(links)].theta;
+  const double distance = (view.side == 1 ? to_sheet : 1.0 - to_sheet) *
+                          distance_across(grid, view.axis, stepped(view.cut.cell, view.axis, view.side));
+  const double open = view.open_behind(links);
   const Vec3 out =
       (view.side == 1 ? -1.0 : 1.0) * face_normal(grid, view.axis, stepped(view.cut.cell, view.axis, view.side));
   const double p_here = fields.p(view.cut.cell);
   const double slope =  // towards the sheet
-      (view.open_behind() ? (p_here - fields.p(view.behind())) / along.distance[1 - view.side] : 0.0) +
+      (open > 0.0 ? open * (p_here - fields.p(view.behind())) / distance_across(grid, view.axis, face_behind) : 0.0) +
       slope_of_inertia(links, fields, view);
-  return {.pressure = fields.density * (p_here + along.theta[view.side] * along.distance[view.side] * slope),
-          .viscous = fields.density * wall_shear(grid, links, fields, view, along) +
+  return {.pressure = fields.density * (p_here + distance * slope),
+          .viscous = fields.density * wall_shear(grid, links, fields, view) +
                      turning_shear(links, fields, links.crossings()[view.hit(links)].triangle, out)};
 }
 
@@ -121,7 +139,7 @@ void for_each_hit_side(const grid::Grid& grid, const CutLinks& links, const Load
         if (f == open_link)
           continue;
         const CutFace& face = links.faces()[f];
-        const double area = grid.area(axis, face.cell[0], face.cell[1], face.cell[2]);
+        const double area = face.cover * grid.area(axis, face.cell[0], face.cell[1], face.cell[2]);
         visit(side == 1 ? face.first : face.last, 1 - side, one_sided(grid, links, fields, {cut, n, axis, side}), area);
       }
     }
@@ -240,7 +258,7 @@ HitTraction at_foot(const grid::Grid& grid, const CutLinks& links, const WallNod
     p_c += node.weight[k] * fields.p(node.donor[k]);
     u_c += node.weight[k] * at(fields.u, node.donor[k]);
   }
-  const Vec3 curvature = pressure_gradient(grid, cut, fields.p) + acceleration;  // times nu
+  const Vec3 curvature = pressure_gradient(grid, links, cut, fields.p) + acceleration;  // times nu
   Vec3 slope = fields.viscosity / node.reach * (u_c - u_a) - 0.5 * node.reach * curvature;
   slope -= slope.dot(node.normal) * node.normal;
   return {.pressure = fields.density * (p - node.distance / (node.reach - node.distance) * (p_c - p)),

@@ -20,7 +20,7 @@
 namespace luff::output {
 
 /// Number of the layout of names and values in a file; raise it when one is added, renamed or gets another meaning.
-inline constexpr int checkpoint_format = 5;
+inline constexpr int checkpoint_format = 6;
 
 /// Room that a checkpoint takes, before a byte of it is written.
 class CheckpointSize {

@@ -430,16 +430,15 @@ std::vector<Index3> cells_beside(const Box& box, std::span<const FaceIndex> face
 Cuts cuts_of_blocked_faces(const Box& box, std::span<const FaceIndex> faces)
 {
   Cuts cuts;
-  const auto close = [&](const Index3& cell, int side) {
-    const auto known = cuts.cells.size();
-    CutCell& cut = cuts.cells[add_cell(cuts, box, cell)];
-    if (cuts.cells.size() > known)
-      for (int s = 0; s < 6; ++s)
-        cut.coefficient[s] = box.coefficient(cell, s);
-    cut.coefficient[side] = 0.0;
-  };
   for (const FaceIndex& face : faces)
-    for_cells_beside(box, face, close);
+    for_cells_beside(box, face, [&](const Index3& cell, int side) {
+      const auto known = cuts.cells.size();
+      CutCell& cut = cuts.cells[add_cell(cuts, box, cell)];
+      if (cuts.cells.size() > known)
+        for (int s = 0; s < 6; ++s)
+          cut.coefficient[s] = box.coefficient(cell, s);
+      cut.coefficient[side] = face.open > 0.0 ? face.open * box.coefficient(cell, side) : 0.0;
+    });
   return cuts;
 }
 

@@ -201,6 +201,8 @@ std::vector<Index3> isolated_cells(const grid::Grid& grid, const SideConditions&
   std::vector<Index3> cells;  // once for every blocked face
   for (const FaceIndex& f : blocked)
     for (const int step : {0, -1}) {
+      if (f.open > 0.0)
+        continue;
       Index3 c = stepped(f.cell, f.axis, step);
       const int n = grid.cells()[f.axis];
       if (ranks.periodic(f.axis) && ranks.blocks(f.axis) == 1) {

@@ -42,7 +42,7 @@ class FluxCorrection {
   FluxCorrection& operator=(const FluxCorrection&) = delete;
   virtual ~FluxCorrection() = default;
 
-  /// Faces among those of owned cells; none of them is corrected.
+  /// Faces among those of owned cells; only the open part of each is corrected.
   virtual void set_blocked(std::span<const FaceIndex> faces);
 
   /// Work on the rows of the plane t along the outer axis, the longer of y and z.

@@ -52,16 +52,17 @@ Index3 longest_last(const Index3& cells)
 
 std::vector<FaceIndex> gather_faces(MPI_Comm comm, const std::vector<FaceIndex>& own)
 {
-  static_assert(sizeof(FaceIndex) == 4 * sizeof(int));
+  static_assert(std::is_trivially_copyable_v<FaceIndex>);
+  constexpr int bytes = sizeof(FaceIndex);
   int ranks = 1;
   MPI_Comm_size(comm, &ranks);
   std::vector<int> counts(ranks), starts(ranks, 0);
-  const int count = static_cast<int>(4 * own.size());
+  const int count = bytes * static_cast<int>(own.size());
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
   for (int r = 1; r < ranks; ++r)
     starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<FaceIndex> all((starts.back() + counts.back()) / 4);
-  MPI_Allgatherv(own.data(), count, MPI_INT, all.data(), counts.data(), starts.data(), MPI_INT, comm);
+  std::vector<FaceIndex> all((starts.back() + counts.back()) / bytes);
+  MPI_Allgatherv(own.data(), count, MPI_BYTE, all.data(), counts.data(), starts.data(), MPI_BYTE, comm);
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

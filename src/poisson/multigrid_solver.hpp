@@ -27,7 +27,7 @@ class MultigridSolver final : public PressureSolver {
 
  private:
   [[nodiscard]] Index3 internal(const Index3& c) const { return {c[0], c[axis_[1]], c[axis_[2]]}; }
-  [[nodiscard]] FaceIndex internal(const FaceIndex& f) const { return {axis_[f.axis], internal(f.cell)}; }
+  [[nodiscard]] FaceIndex internal(const FaceIndex& f) const { return {axis_[f.axis], internal(f.cell), f.open}; }
   [[nodiscard]] Neighbourhood neighbourhood() const;
   [[nodiscard]] std::unique_ptr<FluxCorrection> make_fluxes(const SideConditions& sides);
   [[nodiscard]] Box make_box(const SideConditions& sides) const;

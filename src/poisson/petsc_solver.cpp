@@ -134,7 +134,7 @@ void PetscSolver::set_conductances()
     for_owned(grid_.owned().faces(a),
               [&](const Index3& c) { conductance_[a](c[0], c[1], c[2]) = open_conductance(a, c); });
   for (const FaceIndex& face : blocked_)
-    conductance_[face.axis](face.cell[0], face.cell[1], face.cell[2]) = 0.0;
+    conductance_[face.axis](face.cell[0], face.cell[1], face.cell[2]) *= face.open;
 }
 
 /// Rows sum_f c_f (p_P - p_N), divided by nothing: the matrix is symmetric.

@@ -22,6 +22,7 @@ using SideConditions = std::array<std::array<SideCondition, 2>, 3>;
 struct FaceIndex {
   int axis = 0;
   Index3 cell{};
+  double open = 0.0;  ///< part of a blocked face that lets the flow through all the same, in [0, 1)
 
   friend auto operator<=>(const FaceIndex&, const FaceIndex&) = default;
 };
@@ -52,7 +53,8 @@ struct Report {
 ///   (G p) = A (g - p_P) / (h_P / 2)    on a high Dirichlet side; A (p_P - g) / (h_P / 2) on a low one
 ///   (G p) = 0                          on blocked faces and Neumann sides,
 ///
-/// g the pressure given there; on curvilinear grids it is the one of CurvilinearOperator.
+/// g the pressure given there; on curvilinear grids it is the one of CurvilinearOperator.  Through a face that is
+/// blocked in part it is that of an open face times the part that is open; not on curvilinear grids.
 ///
 /// Calls are collective over the grid's ranks.  Ranks that share a face end with the same bits of flux there, and any
 /// number of threads gives the same bits everywhere.
@@ -60,9 +62,9 @@ class PressureSolver {
  public:
   virtual ~PressureSolver() = default;
 
-  /// Declares the faces that carry no pressure gradient (cut by a sheet), among the faces of owned cells, those on this
-  /// rank's edges included (both ranks that share a face list it).  Replaces the earlier set; cheap when little
-  /// changes.
+  /// Declares the faces that carry no pressure gradient, or less of it (cut by a sheet), among the faces of owned
+  /// cells, those on this rank's edges included (both ranks that share a face list it).  Replaces the earlier set;
+  /// cheap when little changes.
   virtual void set_blocked(std::span<const FaceIndex> faces) = 0;
 
   /// U <- U - dt G p with net outflow zero from every cell.

@@ -119,8 +119,11 @@ void RectilinearCorrection::correct_plane_of(const View3<double>& U, const View<
   for_faces(
       t, [&](int j, int k) { correct_along_row(U[0], p, factor, j, k); },
       [&](int axis, int j, int k) { correct_across_rows(axis, U[axis], p, factor, j, k); });
-  for (int n = first_blocked_[plane]; n < first_blocked_[plane + 1]; ++n)
-    U[blocked_[n].axis](blocked_[n].cell) = kept_[n];
+  for (int n = first_blocked_[plane]; n < first_blocked_[plane + 1]; ++n) {
+    const FaceIndex& f = blocked_[n];
+    double& flux = U[f.axis](f.cell);
+    flux = f.open > 0.0 ? kept_[n] + f.open * (flux - kept_[n]) : kept_[n];
+  }
 }
 
 void RectilinearCorrection::correct_plane(const View3<double>& U, const View<const double>& p, double factor, int t)

@@ -82,6 +82,7 @@ fluid::FlowOptions flow_options(const config::Case& options)
   flow.scheme = time_scheme(options.time.scheme);
   if (options.immersed.scheme == config::ImmersedScheme::Curvib)
     flow.immersed = fluid::ImmersedScheme::Curvib;
+  flow.edges_cover_in_part = options.immersed.edges == config::EdgeCover::Partial;
   flow.density = fluid.density;
   flow.viscosity = fluid.viscosity / fluid.density;
   flow.acceleration = function_of(fluid.body_force, 1.0 / fluid.density);

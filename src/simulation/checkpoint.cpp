@@ -35,6 +35,8 @@ void transfer_offsets(File& file, Offsets& offsets)
   file.pieces("flow/cut_face", offsets.face);
   file.pieces("flow/cut_face_offset", offsets.offset);
   file.pieces("flow/cut_face_offset_rate", offsets.rate);
+  file.pieces("flow/cut_face_cover", offsets.cover);
+  file.pieces("flow/cut_face_open_velocity", offsets.open);
   file.pieces("flow/inside_cell", offsets.inside);
   file.pieces("flow/inside_body", offsets.inside_body);
 }

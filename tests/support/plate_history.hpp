@@ -16,6 +16,7 @@ struct PlateRun {
   double viscosity = 0.01;
   double end = 2.0;
   fluid::ImmersedScheme scheme = fluid::ImmersedScheme::CutLink;
+  bool edges_cover_in_part = false;
 };
 
 /// Force over time.
@@ -45,7 +46,9 @@ inline History history_of(const PlateRun& run)
                   .stream = run.stream,
                   .viscosity = run.viscosity};
   const Plate plate{.degrees = run.degrees, .centre = run.centre, .velocity = {run.stream - 1.0, 0.0, 0.0}};
-  const auto flow = make_flow(slab, MPI_COMM_WORLD, {.immersed = run.scheme, .viscosity = slab.viscosity});
+  const auto flow =
+      make_flow(slab, MPI_COMM_WORLD,
+                {.immersed = run.scheme, .edges_cover_in_part = run.edges_cover_in_part, .viscosity = slab.viscosity});
   History history{.dt = run.dt, .force = {}};
   for (int n = 0; n < std::lround(run.end / run.dt); ++n) {
     flow->step(run.dt, plate.at(flow->t + run.dt, slab.depth));

@@ -14,11 +14,9 @@ struct Units {
   [[nodiscard]] double speed() const { return length / time; }
 };
 
-/// Vortices in a stream along x through a box with outlet, periodic along z.
+/// Vortices in a stream along x through a box with outlet, periodic along z; density 1 and viscosity 0.01.
 inline std::unique_ptr<TestFlow> make_stretched_flow(MPI_Comm comm, const Units& unit = {},
-                                                     fluid::ImmersedScheme immersed = fluid::ImmersedScheme::CutLink,
-                                                     fluid::TimeScheme scheme = fluid::TimeScheme::Rk3,
-                                                     double stage_reduction = fluid::FlowOptions{}.stage_reduction)
+                                                     fluid::FlowOptions options = {})
 {
   using fluid::SideBoundary;
   using fluid::SideKind;
@@ -35,16 +33,11 @@ inline std::unique_ptr<TestFlow> make_stretched_flow(MPI_Comm comm, const Units&
   const fluid::Boundaries sides{{{SideBoundary{SideKind::Velocity, stream}, SideBoundary{.kind = SideKind::Outflow}},
                                  {wall, slip},
                                  {periodic, periodic}}};
+  options.viscosity = 0.01 * unit.length * unit.speed();
   auto flow = std::make_unique<TestFlow>(
       std::array{scaled(stretched_faces(-1, 2, 36, 0.3)), scaled(stretched_faces(-1, 1, 24, -0.3)),
                  scaled(stretched_faces(0, 1, 16, 0.2))},
-      sides,
-      fluid::FlowOptions{.scheme = scheme,
-                         .immersed = immersed,
-                         .density = 1.0,
-                         .viscosity = 0.01 * unit.length * unit.speed(),
-                         .stage_reduction = stage_reduction},
-      comm);
+      sides, options, comm);
   const double pi = std::numbers::pi;
   flow->solver.start({[unit, pi](const Vec3& X, double) -> Vec3 {
                         const Vec3 x = X / unit.length;
@@ -92,11 +85,9 @@ struct Signature {
 };
 
 inline Signature run_stretched_flow(MPI_Comm comm, int steps, bool with_sheet, const Units& unit = {},
-                                    fluid::ImmersedScheme immersed = fluid::ImmersedScheme::CutLink,
-                                    fluid::TimeScheme scheme = fluid::TimeScheme::Rk3,
-                                    double stage_reduction = fluid::FlowOptions{}.stage_reduction)
+                                    const fluid::FlowOptions& options = {})
 {
-  const auto flow = make_stretched_flow(comm, unit, immersed, scheme, stage_reduction);
+  const auto flow = make_stretched_flow(comm, unit, options);
   const double dt = 0.01 * unit.time;
   Vec3 force = Vec3::Zero();
   for (int n = 0; n < steps; ++n) {

@@ -233,6 +233,14 @@ TEST_F(Restart, GivesTheSameBitsOfAShellWithTwoFaces)
   expect_same_files(whole, parts);
 }
 
+TEST_F(Restart, GivesTheSameBitsOfAFlagWhoseEdgesCoverFacesInPart)
+{
+  prepare(changed(small_flag, "[output]\n", "[immersed]\nedges = \"partial\"\n[output]\n"));
+  const Outcome run = go_on();
+  ASSERT_EQ(run.status, 0) << run.said;
+  expect_same_files(whole, parts);
+}
+
 TEST_F(Restart, GivesTheSameBitsWithAitkensFactor)
 {
   prepare(changed(small_flag, "[output]\n", "[coupling]\nacceleration = \"aitken\"\n[output]\n"));

@@ -176,6 +176,8 @@ const BadInput rules[] = {
      "case.toml:10: grid.x.refine must lie between `from` and `to`"},
     {"ARefinementTakesAllCells", "spacing = 0.04", "spacing = 0.02",
      "case.toml:10: grid.x.refine must leave a cell for each end: it takes 100 of the 100 cells"},
+    {"EdgesCoverInPartWithTheOtherScheme", "[output]", "[immersed]\nscheme = \"curvib\"\nedges = \"partial\"\n[output]",
+     "case.toml:38: immersed.edges = \"partial\" must be \"whole\" with `scheme = \"curvib\"`"},
     {"APeriodicSideIsAlone", "z_max = { type = \"periodic\" }", "z_max = { type = \"slip\" }",
      "case.toml:18: boundary.z_min.type = \"periodic\" must be paired: z_max is not periodic"},
     {"AVelocitySideHasNoVelocity", ", value = [1, 0, 0]", "",

@@ -110,8 +110,8 @@ TEST(Curvib, ABodyThatSwimsAndTurnsLeavesEveryCellWithoutDivergenceAndFeelsTheOu
 
 TEST(Curvib, GoesOnFromItsStateAndOffsetsWithTheSameBits)
 {
-  const auto whole = make_stretched_flow(MPI_COMM_SELF, {}, ImmersedScheme::Curvib);
-  const auto resumed = make_stretched_flow(MPI_COMM_SELF, {}, ImmersedScheme::Curvib);
+  const auto whole = make_stretched_flow(MPI_COMM_SELF, {}, {.immersed = ImmersedScheme::Curvib});
+  const auto resumed = make_stretched_flow(MPI_COMM_SELF, {}, {.immersed = ImmersedScheme::Curvib});
   const auto advance = [](TestFlow& flow, int steps) {
     for (int n = 0; n < steps; ++n) {
       flow.step(0.01, heaving_sheet(flow.t + 0.01));

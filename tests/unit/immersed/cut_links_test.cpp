@@ -170,7 +170,7 @@ TEST_F(CutCells, SeeThePressureOfTheirOwnSideOnly)
   ASSERT_FALSE(links.cells().empty());
   for (const CutCell& cut : links.cells()) {
     const double slope = grid.centre(0, cut.cell[0]) < x_sheet ? 2.0 : -3.0;
-    EXPECT_LE((pressure_gradient(grid, cut, std::as_const(p).view()) - Vec3(slope, 1.0, 0.0)).norm(), 1e-11);
+    EXPECT_LE((pressure_gradient(grid, links, cut, std::as_const(p).view()) - Vec3(slope, 1.0, 0.0)).norm(), 1e-11);
   }
 }
 
@@ -189,7 +189,7 @@ TEST_F(CutCells, BetweenTwoSheetsFeelNoGradientAcrossThem)
   int between = 0;
   for (const CutCell& cut : links.cells())
     if (cut.cell[0] == 5) {
-      EXPECT_LE((pressure_gradient(grid, cut, std::as_const(p).view()) - Vec3(0.0, 0.0, 1.0)).norm(), 1e-11);
+      EXPECT_LE((pressure_gradient(grid, links, cut, std::as_const(p).view()) - Vec3(0.0, 0.0, 1.0)).norm(), 1e-11);
       ++between;
     }
   EXPECT_GT(between, 0);
@@ -219,7 +219,7 @@ TEST_F(CutCells, FluxOfANewlyCutFaceGoesOnAsItWasAndReturnsToThatOfTheSheet)
                     0.25 - (1.0 - fraction) * dt * acceleration + offset, 1e-14)
             << "before " << before << ", t = " << since;
       }
-      fresh.accept();
+      fresh.accept(views(std::as_const(U)));
     }
   };
   with_flow_before(1.1, [&](double) { return (1.0 - 1.1) / dt - acceleration; });
@@ -243,16 +243,16 @@ TEST_F(CutCells, WhoseCentreTheSheetPassedAreFoundOnceAndNoOthers)
   const double centre = grid.centre(0, 5);
   freeze(upright(centre - 0.01));
   EXPECT_TRUE(links.flipped().empty());
-  links.accept();
+  links.accept(views(std::as_const(U)));
   freeze(upright(centre - 0.002));
   EXPECT_TRUE(links.flipped().empty());
-  links.accept();
+  links.accept(views(std::as_const(U)));
   freeze(upright(centre + 0.004));
   EXPECT_FALSE(links.flipped().empty());
   EXPECT_EQ(links.flipped().size(), links.faces().size());
   for (const Index3& cell : links.flipped())
     EXPECT_EQ(cell[0], 5);
-  links.accept();
+  links.accept(views(std::as_const(U)));
   freeze(upright(centre + 0.01));
   EXPECT_TRUE(links.flipped().empty());
 }

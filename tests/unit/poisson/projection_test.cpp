@@ -87,6 +87,42 @@ TEST(Projection, CorrectsByTheGradientOfThePressureItReturns)
       }
 }
 
+/// Every third face of the flag lets a part of the flow through.
+TEST(Projection, CorrectsFacesThatAreBlockedInPartByTheirOpenPart)
+{
+  const Problem problem{{24, 20, 22}, 3.0, "NDNNNN"};
+  const grid::Grid grid = problem.grid();
+  std::vector<FaceIndex> faces = blocked(grid, flag);
+  for (std::size_t n = 0; n < faces.size(); n += 3)
+    faces[n].open = 0.5 + 0.49 * noise(grid, faces[n]);
+  Field3<double> before = make_field3<double>(grid.owned());
+  set_random_fluxes(problem, grid, {}, before);
+  const auto projected = [&](const std::string& kind, const Target& target) {
+    Projection result{make_field3<double>(grid.owned()), Field<double>(grid.owned()), {}};
+    result.U = before;
+    const auto solver = make_pressure_solver(grid, problem.conditions(), {kind});
+    solver->set_blocked(faces);
+    result.report = solver->project(views(result.U), result.p.view(), 0.1, target);
+    return result;
+  };
+  const Projection ours = projected("multigrid", tight);
+  EXPECT_TRUE(ours.report.converged);
+  EXPECT_LE(divergence(grid, ours.U), 1e-13);
+  EXPECT_LE(ours.report.iterations, 30);
+  for (const FaceIndex& f : faces) {
+    const auto [i, j, k] = f.cell;
+    const double A = grid.area(f.axis, i, j, k);
+    Index3 below = f.cell;
+    --below[f.axis];
+    const double G =
+        A * (ours.p(i, j, k) - ours.p(below[0], below[1], below[2])) / grid.distance(f.axis, f.cell[f.axis]);
+    EXPECT_NEAR(ours.U[f.axis](i, j, k), before[f.axis](i, j, k) - f.open * 0.1 * G, 1e-12 * A);
+  }
+  const Projection petsc = projected("petsc", {.divergence = 2e-13, .max_iterations = 500});
+  EXPECT_TRUE(petsc.report.converged);
+  EXPECT_LE(difference(grid, ours.p, petsc.p), 1e-10 * largest(grid, petsc.p));
+}
+
 TEST(Projection, StartsFromTheGivenPressure)
 {
   const Problem problem{{20, 18, 16}, 4.0, "NDNNNN"};

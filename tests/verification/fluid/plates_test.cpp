@@ -81,6 +81,37 @@ INSTANTIATE_TEST_SUITE_P(
                       SteadyPlate{"parallel", 0.0, 100.0, 40, {0.007, 0.013, 0.0}}),
     [](const auto& tested) { return "Case" + std::to_string(tested.index); });
 
+/// Largest less smallest force coefficients on a plate at 30 degrees, in four places of the grid, soon after the start.
+Vec3 spread_over_places(bool edges_cover_in_part)
+{
+  const Slab slab = slab_around_plate(16, 50.0);
+  Vec3 low = Vec3::Constant(10.0);
+  Vec3 high = -low;
+  for (const Vec3& place :
+       {Vec3(0.0, 0.0, 0.0), Vec3(0.016, -0.010, 0.0), Vec3(-0.024, 0.026, 0.0), Vec3(0.030, 0.014, 0.0)}) {
+    const auto flow =
+        make_flow(slab, MPI_COMM_WORLD, {.edges_cover_in_part = edges_cover_in_part, .viscosity = slab.viscosity});
+    const immersed::SheetMotion plate = Plate{.degrees = 30.0, .centre = place, .divisions = 16}.at(0.0, slab.depth);
+    flow->advance(0.0125, 79, plate);
+    flow->step(0.0125, plate);
+    const Vec3 force = coefficients(total_force(flow->solver.loads()), slab.depth);
+    low = low.cwiseMin(force);
+    high = high.cwiseMax(force);
+    EXPECT_LE(flow->largest_divergence, 1e-13);
+  }
+  return high - low;
+}
+
+TEST(EdgesOfPlates, ThatCoverFacesInPartMakeTheForceDependLessOnThePlaceInTheGrid)
+{
+  const Vec3 whole = spread_over_places(false);
+  const Vec3 partial = spread_over_places(true);
+  std::cout << "  spread of C_x, C_y: whole faces " << whole[0] << ", " << whole[1] << ", in part " << partial[0]
+            << ", " << partial[1] << '\n';
+  EXPECT_LE(partial[0], 0.7 * whole[0]);
+  EXPECT_LE(partial[1], 0.7 * whole[1]);
+}
+
 /// cases/plate/parallel.toml: Re = 100, L/h = 40 in a wide domain, up to t = 6.
 TEST(ParallelPlate, HasTheDragOfTripleDeckTheory)
 {
