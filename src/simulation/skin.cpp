@@ -109,18 +109,24 @@ std::vector<Vec3> Skin::area_vectors(std::span<const Vec3> x) const
   return N;
 }
 
-std::vector<Vec3> Skin::positions(std::span<const Vec3> x) const
+std::vector<Vec3> Skin::beside(std::span<const Vec3> middle, std::span<const Vec3> out) const
 {
-  const std::vector<Vec3> N = area_vectors(x);
   std::vector<Vec3> skin(2 * static_cast<std::size_t>(n_middle_) + rim_.size());
   for (int v = 0; v < n_middle_; ++v) {
-    const Vec3 n = N[v].normalized();
-    skin[v] = x[v] + half_ * n;
-    skin[n_middle_ + v] = x[v] - half_ * n;
+    skin[v] = middle[v] + half_ * out[v];
+    skin[n_middle_ + v] = middle[v] - half_ * out[v];
   }
   for (std::size_t r = 0; r < rim_.size(); ++r)
-    skin[2 * n_middle_ + r] = x[rim_[r]];
+    skin[2 * n_middle_ + r] = middle[rim_[r]];
   return skin;
+}
+
+std::vector<Vec3> Skin::positions(std::span<const Vec3> x) const
+{
+  std::vector<Vec3> normals = area_vectors(x);
+  for (Vec3& n : normals)
+    n.normalize();
+  return beside(x, normals);
 }
 
 std::vector<Vec3> Skin::rates(std::span<const Vec3> x, std::span<const Vec3> v) const
@@ -133,16 +139,12 @@ std::vector<Vec3> Skin::rates(std::span<const Vec3> x, std::span<const Vec3> v) 
   }
   keep_on_planes(dN);
   const std::vector<Vec3> N = area_vectors(x);
-  std::vector<Vec3> skin(2 * static_cast<std::size_t>(n_middle_) + rim_.size());
+  std::vector<Vec3> turning(n_middle_);
   for (int p = 0; p < n_middle_; ++p) {
     const Vec3 n = N[p].normalized();
-    const Vec3 turning = (dN[p] - n.dot(dN[p]) * n) / N[p].norm();
-    skin[p] = v[p] + half_ * turning;
-    skin[n_middle_ + p] = v[p] - half_ * turning;
+    turning[p] = (dN[p] - n.dot(dN[p]) * n) / N[p].norm();
   }
-  for (std::size_t r = 0; r < rim_.size(); ++r)
-    skin[2 * n_middle_ + r] = v[rim_[r]];
-  return skin;
+  return beside(v, turning);
 }
 
 std::vector<Vec3> Skin::forces(std::span<const Vec3> x, std::span<const Vec3> on_skin) const

@@ -50,6 +50,8 @@ class Skin {
   void make_rim(const surface::TriangleMesh& middle);
   void carry_marks(const surface::Marks& middle);
   [[nodiscard]] std::vector<Vec3> area_vectors(std::span<const Vec3> x) const;
+  /// A field of the skin from that of the middle surface and what half a thickness out of it adds, times the half.
+  [[nodiscard]] std::vector<Vec3> beside(std::span<const Vec3> middle, std::span<const Vec3> out) const;
   void keep_on_planes(std::vector<Vec3>& vectors) const;
 
   int n_middle_;
