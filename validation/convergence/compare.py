@@ -3,14 +3,16 @@
 """Runs the two-dimensional flags on three grids, cells and time step together, and prints the observed order of amplitude
 and frequency of the tip.
 
-Usage: validation/convergence/compare.py [--out DIR] [CASE...]
+Usage: validation/convergence/compare.py [--edges partial] [--out DIR] [CASE...]
 
 Each level has 1.5 times the cells of the one before, everywhere, and steps shorter by as much.  With values a, b, c from
 coarse to fine the order is log((a - b)/(b - c))/log(1.5), the value for h = 0 Richardson's c + (c - b)/(1.5^p - 1).
 Peak to peak is the mean over the whole periods of a window; of the flag there are an early and a late one.
 
-Runs into DIR/<case>-<cells per length> (default validation/convergence/results) what is not there yet, prints a table, and
-writes DIR/convergence.png.
+With --edges partial the flag's edges cover parts of faces (`immersed.edges`).
+
+Runs into DIR/<case>-<cells per length> (default validation/convergence/results, or results/partial) what is not there yet,
+prints a table, and writes DIR/convergence.png.
 """
 import argparse
 import sys
@@ -31,7 +33,7 @@ levels = (16, 24, 36)  # cells per length
 windows = {"flag-2d": ((16.5, 24.0), (24.0, 42.0)), "inverted-flag-2d": ((12.0, 40.0),)}
 
 
-def settings(cells):
+def settings(cells, edges):
     """The same grid but for its spacing: 80 x 60 cells with 16 on the flag."""
     line = "{{ from = {}, to = {}, cells = {}, refine = {{ from = {}, to = {}, spacing = {:.10g} }} }}"
     return [
@@ -41,12 +43,13 @@ def settings(cells):
         f"time.step={0.24 / cells:.10g}",
         "output.plots=false",
         "coupling.tolerance=1e-7",
+        f"immersed.edges={edges}",
     ]
 
 
-def history(case, cells, out):
+def history(case, cells, edges, out):
     """Time and y of the tip; of a run that fails, up to there."""
-    changes = settings(cells) + [f"time.end={windows[case][-1][1]}"]
+    changes = settings(cells, edges) + [f"time.end={windows[case][-1][1]}"]
     tip = columns(run(root / "cases" / case / "case.toml", out, changes, check=False) / "probe-tip.csv")
     return tip["t"], tip["displacement_y"]
 
@@ -78,14 +81,17 @@ def order(values):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("cases", nargs="*", metavar="CASE", default=list(windows))
-    parser.add_argument("--out", type=Path, default=here / "results")
+    parser.add_argument("--edges", choices=("whole", "partial"), default="whole")
+    parser.add_argument("--out", type=Path)
     arguments = parser.parse_args()
+    if arguments.out is None:
+        arguments.out = here / "results" / ("partial" if arguments.edges == "partial" else "")
     figure, axes = plt.subplots(len(arguments.cases), 1, figsize=(9, 4 * len(arguments.cases)), squeeze=False)
     print("case | quantity | " + " | ".join(f"L/{n}" for n in levels) + " | order | h = 0 | finest off by")
     for case, axis in zip(arguments.cases, axes[:, 0]):
         found, ends = {window: [] for window in windows[case]}, []
         for cells in levels:
-            t, y = history(case, cells, arguments.out / f"{case}-{cells}")
+            t, y = history(case, cells, arguments.edges, arguments.out / f"{case}-{cells}")
             for window in found:
                 found[window].append(swing(t, y, window))
             ends.append(t[-1])
