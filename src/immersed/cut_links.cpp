@@ -123,6 +123,9 @@ void CutLinks::find_crossings(std::span<const Vec3> positions)
 /// Adds what covers faces beside the lines of centres to the crossings, on links that no sheet crosses.
 void CutLinks::find_covers()
 {
+  covers_.clear();
+  if (free_edges_.empty())
+    return;
   covers_ = edge_covers(grid_, positions_, triangles_, free_edges_);
   const std::vector<Crossing> on_lines = crossings_;
   const auto order = [](const Crossing& a, const Crossing& b) {

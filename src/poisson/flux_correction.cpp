@@ -199,10 +199,10 @@ std::vector<Index3> isolated_cells(const grid::Grid& grid, const SideConditions&
 {
   const Decomposition& ranks = grid.ranks();
   std::vector<Index3> cells;  // once for every blocked face
-  for (const FaceIndex& f : blocked)
+  for (const FaceIndex& f : blocked) {
+    if (f.open > 0.0)
+      continue;
     for (const int step : {0, -1}) {
-      if (f.open > 0.0)
-        continue;
       Index3 c = stepped(f.cell, f.axis, step);
       const int n = grid.cells()[f.axis];
       if (ranks.periodic(f.axis) && ranks.blocks(f.axis) == 1) {
@@ -213,6 +213,7 @@ std::vector<Index3> isolated_cells(const grid::Grid& grid, const SideConditions&
       if (grid.owned().contains(c))
         cells.push_back(c);
     }
+  }
   std::sort(cells.begin(), cells.end());
   std::vector<Index3> isolated;
   for (auto first = cells.begin(); first != cells.end();) {
