@@ -11,6 +11,20 @@
 
 namespace luff::immersed {
 
+int first_centre_above(const grid::Grid& grid, int axis, double x)
+{
+  int from = 0;
+  int to = grid.cells()[axis];
+  while (from < to) {
+    const int middle = (from + to) / 2;
+    if (grid.centre(axis, middle) > x)
+      to = middle;
+    else
+      from = middle + 1;
+  }
+  return from;
+}
+
 namespace {
 
 struct Range {
@@ -21,19 +35,7 @@ struct Range {
 /// Centres c along an axis that lie within [low, high] once displaced: low < c <= high.
 Range displaced_centres_within(const grid::Grid& grid, int axis, double low, double high)
 {
-  const auto first_above = [&](double x) {
-    int from = 0;
-    int to = grid.cells()[axis];
-    while (from < to) {
-      const int middle = (from + to) / 2;
-      if (grid.centre(axis, middle) > x)
-        to = middle;
-      else
-        from = middle + 1;
-    }
-    return from;
-  };
-  Range range{first_above(low), 0};
+  Range range{immersed::first_centre_above(grid, axis, low), 0};
   range.last = range.first;
   while (range.last < grid.cells()[axis] && grid.centre(axis, range.last) <= high)
     ++range.last;

@@ -50,6 +50,9 @@ struct Crossing {
                                                       std::span<const std::array<int, 3>> triangles,
                                                       std::span<const int> among);
 
+/// The first centre along an axis beyond x; the number of cells if there is none.  Uniform and rectilinear grids.
+[[nodiscard]] int first_centre_above(const grid::Grid& grid, int axis, double x);
+
 /// By axis, then k, j, i of the face, then theta; the triangle settles what is left.
 void sort(std::vector<Crossing>& crossings, const Index3& cells);
 

@@ -299,7 +299,7 @@ class AxisCovers {
     if (own == column.pieces.end())
       return;
     const Piece end = *own;
-    const int face = first_centre_above(end.centroid[a_]);
+    const int face = first_centre_above(grid_, a_, end.centroid[a_]);
     const bool between_centres = face > 0 && face < grid_.cells()[a_];
     const double link = grid_.distance(a_, std::clamp(face, 1, grid_.cells()[a_] - 1));
     const double part = take_covered_part(column, plane_of(edge.triangle), link);
@@ -314,14 +314,6 @@ class AxisCovers {
          false,
          part},
         covers);
-  }
-
-  [[nodiscard]] int first_centre_above(double x) const
-  {
-    int m = 0;
-    while (m < grid_.cells()[a_] && grid_.centre(a_, m) <= x)
-      ++m;
-    return m;
   }
 
   /// If it is one of this rank's; the link that wraps around is that of two faces.
