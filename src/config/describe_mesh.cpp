@@ -69,17 +69,23 @@ void describe_parts(Schema& s, MeshOptions& mesh)
                 "by up to 28 % of the spacing and joined by Delaunay's rule; `delaunay`: as many inner vertices "
                 "anywhere, evenly spread by Lloyd's iteration. Boundary vertices stay where they are."});
   s.rule(!rings || mesh.pattern != MeshPattern::Alternating, "pattern", "must be another one with `rings`");
-  s.when(mesh.shape == MeshShape::Rectangle || mesh.shape == MeshShape::Cylinder, "`rectangle` or `cylinder`", [&] {
-    s.key("grading", mesh.grading,
-          {.doc = "Growth of the spacing along each of the `divisions`, from their start to their end, by a constant "
-                  "factor from one to the next: 10 makes the last spacing ten times the first, 0.1 the first ten times "
-                  "the last.",
-           .range = positive});
-    s.rule(mesh.pattern != MeshPattern::Delaunay || mesh.grading == std::array{1.0, 1.0}, "grading",
-           "goes with every pattern but \"delaunay\", which spreads vertices evenly");
-    s.rule(mesh.shape != MeshShape::Cylinder || mesh.grading[0] == 1 || mesh.angle.to - mesh.angle.from < 360,
-           "grading", "must begin with 1 around a whole circle, which has no ends");
-  });
+  const bool zone = mesh.shape == MeshShape::SphereCap && !rings;
+  const bool parallelogram = mesh.shape == MeshShape::Rectangle;
+  s.when(
+      parallelogram || mesh.shape == MeshShape::Cylinder || zone,
+      "`rectangle`, `cylinder`, or `sphere-cap` without a pole", [&] {
+        s.key(
+            "grading", mesh.grading,
+            {.doc =
+                 "Growth of the spacing along each of the `divisions`, from their start to their end, by a constant "
+                 "factor from one to the next: 10 makes the last spacing ten times the first, 0.1 the first ten times "
+                 "the last.",
+             .range = positive});
+        s.rule(mesh.pattern != MeshPattern::Delaunay || mesh.grading == std::array{1.0, 1.0}, "grading",
+               "goes with every pattern but \"delaunay\", which spreads vertices evenly");
+        s.rule(parallelogram || mesh.grading[0] == 1 || mesh.angle.to - mesh.angle.from < 360, "grading",
+               "must begin with 1 around a whole circle, which has no ends");
+      });
   s.when(mesh.pattern == MeshPattern::Irregular || mesh.pattern == MeshPattern::Delaunay,
          "`pattern = \"irregular\"` or `\"delaunay\"`", [&] {
            s.key("seed", mesh.seed,

@@ -110,7 +110,7 @@ struct MeshOptions {
   AngleOptions angle;
   PolarOptions polar;                   ///< SphereCap
   std::array<int, 2> divisions{0, 0};   ///< along a and b; around and across
-  std::array<double, 2> grading{1, 1};  ///< Rectangle, Cylinder: growth of the spacing along each
+  std::array<double, 2> grading{1, 1};  ///< Rectangle, Cylinder, SphereCap: growth of the spacing along each
   int rings = 0;                        ///< Disk, SphereCap with a pole
   MeshPattern pattern = MeshPattern::Diagonal;
   int seed = 1;

@@ -87,6 +87,7 @@ surface::SphereCap sphere_cap(const config::MeshOptions& mesh)
           .angle = sector_of(mesh.angle),
           .rings = mesh.rings,
           .divisions = mesh.divisions,
+          .grading = mesh.grading,
           .pattern = pattern_of(mesh.pattern),
           .seed = static_cast<unsigned>(mesh.seed)};
 }

@@ -85,7 +85,8 @@ struct SphereCap {
   Sector polar = {0, 90};               ///< angle from the axis, within 0 to 180 degrees
   Sector angle = {};                    ///< about the axis
   int rings = 4;                        ///< with a pole: from end to end
-  std::array<int, 2> divisions{24, 4};  ///< without a pole: around, from end to end
+  std::array<int, 2> divisions{24, 4};  ///< without a pole: around, from the far end (polar.to) to the near one
+  std::array<double, 2> grading{1, 1};  ///< without a pole, as in Cylinder
   Pattern pattern = Pattern::Diagonal;
   double displacement = 0.28;
   unsigned seed = 1;

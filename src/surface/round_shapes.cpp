@@ -145,13 +145,23 @@ MarkedMesh zone_with_pole(const SphereCap& shape)
                       sphere(shape.frame.centre, shape.radius, direction), shape, "sphere-cap", sides);
 }
 
+void check_round_grading(std::string_view name, const auto& shape)
+{
+  check_grading(name, shape.grading, shape.pattern);
+  if (shape.grading[0] != 1 && around(name, shape.angle) == Around::Closed)
+    fail_input("{}: grading = [{}, {}] around a whole circle, which has no ends, must be 1", name, shape.grading[0],
+               shape.grading[1]);
+}
+
 MarkedMesh zone_without_pole(const SphereCap& shape)
 {
+  check_round_grading("sphere-cap", shape);
   const Axes axes = axes_of("sphere-cap", shape.frame);
   // Rows from the far edge to the near one: so the normal points outwards.
   const auto direction = [&](double u, double v) -> Vec3 {
-    const double polar = along(shape.polar, 1 - v / shape.divisions[1]);
-    return std::cos(polar) * axes.z + std::sin(polar) * axes.radial(along(shape.angle, u / shape.divisions[0]));
+    const double polar = along(shape.polar, 1 - graded(v / shape.divisions[1], shape.grading[1]));
+    const double angle = along(shape.angle, graded(u / shape.divisions[0], shape.grading[0]));
+    return std::cos(polar) * axes.z + std::sin(polar) * axes.radial(angle);
   };
   return triangulated(round_grid("sphere-cap", shape.divisions, shape.angle, shape.pattern),
                       sphere(shape.frame.centre, shape.radius, direction), shape, "sphere-cap",
@@ -193,10 +203,7 @@ MarkedMesh made(const Cylinder& shape)
 {
   check_length("cylinder", "radius", shape.radius);
   check_length("cylinder", "length", shape.length);
-  check_grading("cylinder", shape.grading, shape.pattern);
-  if (shape.grading[0] != 1 && around("cylinder", shape.angle) == Around::Closed)
-    fail_input("cylinder: grading = [{}, {}] around a whole circle, which has no ends, must be 1", shape.grading[0],
-               shape.grading[1]);
+  check_round_grading("cylinder", shape);
   const Axes axes = axes_of("cylinder", shape.frame);
   const Vec3& centre = shape.frame.centre;
   const auto outwards = [&](const Vec3& x) -> Vec3 { return x - centre - axes.z.dot(x - centre) * axes.z; };

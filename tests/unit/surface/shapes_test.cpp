@@ -352,6 +352,19 @@ TEST(Shapes, GradedSpacingsGrowByAConstantFactor)
   EXPECT_NEAR(sheet.vertices[2].x(), 1.0 / 3, 1e-15);
 }
 
+// From the far end, 90 degrees off the axis, to the near one.
+TEST(Shapes, ZonesAreGradedFromTheirFarEnd)
+{
+  const TriangleMesh mesh = sphere_cap({.polar = {18, 90}, .angle = {0, 90}, .divisions = {3, 4}, .grading = {0.5, 8}});
+  const auto polar = [&](int j) { return std::acos(mesh.vertices[j].z()); };
+  EXPECT_NEAR(polar(0), std::numbers::pi / 2, 1e-15);
+  EXPECT_NEAR(polar(4), std::numbers::pi / 10, 1e-15);
+  for (int j = 1; j < 4; ++j)
+    EXPECT_NEAR((polar(j) - polar(j + 1)) / (polar(j - 1) - polar(j)), std::pow(8, 0.25), 1e-12);
+  const auto angle = [&](int i) { return std::atan2(mesh.vertices[5 * i].y(), mesh.vertices[5 * i].x()); };
+  EXPECT_NEAR((angle(2) - angle(1)) / angle(1), std::pow(0.5, 1.0 / 3), 1e-12);
+}
+
 TEST(Shapes, BadNumbersAreRefused)
 {
   EXPECT_THROW(disk({.radius = 0}), InputError);
@@ -370,6 +383,7 @@ TEST(Shapes, BadNumbersAreRefused)
   EXPECT_THROW(cylinder({.grading = {1, 2}, .pattern = Pattern::Delaunay}), InputError);
   EXPECT_THROW(cylinder({.divisions = {100000, 100000}}), InputError);
   EXPECT_THROW(sphere_cap({.polar = {20, 200}}), InputError);
+  EXPECT_THROW(sphere_cap({.polar = {20, 90}, .grading = {2, 1}}), InputError);  // around the whole circle
   EXPECT_THROW(sphere_cap({.polar = {0, 180}, .rings = 1}), InputError);
 }
 
