@@ -9,19 +9,11 @@
 #include <petscdmda.h>
 #include <petscksp.h>
 
-#include "poisson/flow.hpp"
+#include "poisson/projection.hpp"
 
 namespace luff::benchmark {
 
-constexpr double reduction = 1e-10;
 constexpr double raised = 1.0 + 1e-9;
-
-struct Timing {
-  int iterations = 0;
-  double set_up = 1e30;
-  double solve = 1e30;
-  bool converged = false;
-};
 
 /// hypre's structured multigrid (PFMG-preconditioned conjugate gradients).
 class Pfmg {

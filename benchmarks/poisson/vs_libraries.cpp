@@ -15,6 +15,7 @@
 #include <mpi.h>
 
 #include "poisson/peers.hpp"
+#include "poisson/projection.hpp"
 
 namespace {
 
@@ -22,32 +23,6 @@ using namespace luff;
 using namespace luff::benchmark;
 
 constexpr int rounds = 3;
-
-/// The same case for luff: set-up is the change from no sheet to the sheet.
-class Luff {
- public:
-  explicit Luff(const Flow& flow) : flow_(flow), solver_(poisson::make_pressure_solver(flow.grid, flow.sides)) {}
-
-  void run(Timing& best)
-  {
-    Field3<double> U = flow_.U;
-    Field<double> p(flow_.grid.owned());
-    solver_->set_blocked({});
-    const double start = thread_time();
-    solver_->set_blocked(flow_.blocked);
-    const double ready = thread_time();
-    const auto report = solver_->project(views(U), p.view(), 1.0, {.relative = reduction});
-    const double done = thread_time();
-    best.set_up = std::min(best.set_up, ready - start);
-    best.solve = std::min(best.solve, done - ready);
-    best.iterations = report.iterations;
-    best.converged = report.converged;
-  }
-
- private:
-  const Flow& flow_;
-  std::unique_ptr<poisson::PressureSolver> solver_;
-};
 
 /// One core's bandwidth [B/s]: the triad of McCalpin's STREAM, 24 B per element.
 double triad_bandwidth()

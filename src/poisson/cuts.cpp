@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "poisson/passages.hpp"
 
 namespace luff::poisson {
 
@@ -39,23 +40,6 @@ void sort_links(std::vector<Link>& links)
   }
   links.resize(kept);
 }
-
-/// Disjoint sets of the few unknowns inside one coarse cell.
-struct Sets {
-  std::vector<int> root;
-  void reset(int n)
-  {
-    root.resize(n);
-    std::iota(root.begin(), root.end(), 0);
-  }
-  int find(int a)
-  {
-    while (root[a] != a)
-      a = root[a] = root[root[a]];
-    return a;
-  }
-  void join(int a, int b) { root[find(a)] = find(b); }
-};
 
 /// Builds the cuts of one level from those of the next finer one.
 class Coarsening {
@@ -146,59 +130,91 @@ class Coarsening {
         }
   }
 
-  /// Joins what open links join inside one coarse cell; true when some link inside it is closed.
-  bool join_inside(const Index3& C, const std::vector<int>& extras)
-  {
-    bool closed = false;
-    const Index3 lowest{merges_[0].first[C[0]], merges_[1].first[C[1]], merges_[2].first[C[2]]};
-    const Index3 count{merges_[0].first[C[0] + 1] - lowest[0], merges_[1].first[C[1] + 1] - lowest[1],
-                       merges_[2].first[C[2] + 1] - lowest[2]};
-    const auto number_of_child = [&](const Index3& c) {  // in the order of list_children()
+  /// Places of the unknowns inside one coarse cell in the lists of its children and, after them, of its extras.
+  struct Places {
+    Index3 lowest, count;
+    int children;
+    [[nodiscard]] int of_child(const Index3& c) const  // in the order of list_children()
+    {
       return (c[0] - lowest[0]) + count[0] * ((c[1] - lowest[1]) + count[1] * (c[2] - lowest[2]));
-    };
-    const auto number_of = [&](Unknown x) {
-      if (is_cell(x)) {
-        const Index3 c = fine_.cell(x);
-        return box_of(c) == C ? number_of_child(c) : -1;
-      }
-      for (std::size_t n = 0; n < extras.size(); ++n)
-        if (extras[n] == extra_number(x))
-          return static_cast<int>(children_.size() + n);
-      return -1;
-    };
-    sets_.reset(static_cast<int>(children_.size() + extras.size()));
-    for (std::size_t a = 0; a < children_.size(); ++a)
-      for (int side = 0; side < 6; ++side) {
-        Index3 other;
-        if (!fine_.neighbour(children_[a].cell, side, other) || box_of(other) != C || other == children_[a].cell)
-          continue;
-        if (fine_coefficient(children_[a], side) > 0.0)
-          sets_.join(static_cast<int>(a), number_of_child(other));
-        else
-          closed = true;
-      }
-    for (std::size_t n = 0; n < extras.size(); ++n)
-      for (const Link& link : fine_cuts_.links_from(extra_unknown(extras[n])))
-        if (const int other = number_of(link.to); other >= 0)
-          sets_.join(static_cast<int>(children_.size() + n), other);
-    return closed;
+    }
+  };
+  [[nodiscard]] Places places(const Index3& C) const
+  {
+    Places result{};
+    for (int a = 0; a < 3; ++a) {
+      result.lowest[a] = merges_[a].first[C[a]];
+      result.count[a] = merges_[a].first[C[a] + 1] - result.lowest[a];
+    }
+    result.children = static_cast<int>(children_.size());
+    return result;
   }
 
-  [[nodiscard]] bool reaches_out(const Index3& C, Unknown x) const
+  /// Tells passages_ of the faces inside one coarse cell.
+  void find_passages_of_children(const Index3& C)
   {
+    const Places place = places(C);
+    for (const Child& child : children_)
+      for (const int side : {1, 3, 5}) {
+        Index3 other;
+        if (!fine_.neighbour(child.cell, side, other) || box_of(other) != C || other == child.cell)
+          continue;
+        const double c = fine_coefficient(child, side);
+        if (c > 0.0)
+          passages_.join(place.of_child(child.cell), place.of_child(other), c);
+        else
+          passages_.part(place.of_child(child.cell), place.of_child(other));
+      }
+  }
+
+  /// Of the links of its extra unknowns; what shares a cell lies on two sides of a sheet.
+  void find_passages_of_extras(const Index3& C, const std::vector<int>& extras)
+  {
+    const Places place = places(C);
+    const auto place_of = [&](Unknown x) {
+      if (is_cell(x)) {
+        const Index3 c = fine_.cell(x);
+        return box_of(c) == C ? place.of_child(c) : -1;
+      }
+      const auto found = std::find(extras.begin(), extras.end(), extra_number(x));
+      return found == extras.end() ? -1 : place.children + static_cast<int>(found - extras.begin());
+    };
+    for (const int e : extras) {
+      const int own = place_of(extra_unknown(e));
+      for (const Link& link : fine_cuts_.links_from(extra_unknown(e)))
+        if (const int other = place_of(link.to); other >= 0 && other < own)
+          passages_.join(own, other, link.coefficient);
+      const Index3& cell = fine_cuts_.extras[e].cell;
+      passages_.part(own, place.of_child(cell));
+      for (int m = place.children; m < own; ++m)
+        if (fine_cuts_.extras[extras[m - place.children]].cell == cell)
+          passages_.part(own, m);
+    }
+  }
+
+  [[nodiscard]] double coarse_over_fine(const Index3& C, int side) const
+  {
+    return merges_[side / 2].scale[C[side / 2] + side % 2];
+  }
+
+  /// Sum of the coarse coefficients that lead from a fine unknown out of its coarse cell.
+  [[nodiscard]] double outward(const Index3& C, Unknown x) const
+  {
+    double sum = 0.0;
     for (const Link& link : fine_cuts_.links_from(x))
       if (link.to == outside || box_of(fine_cell_of(link.to)) != C)
-        return true;
+        sum += link.coefficient * coarse_over_fine(C, link.side);
     if (!is_cell(x))
-      return false;
+      return sum;
     const Index3 cell = fine_.cell(x);
     const Child child{cell, fine_cuts_.at(x), 0};
     for (int side = 0; side < 6; ++side) {
       Index3 other;
-      if (fine_coefficient(child, side) > 0.0 && (!fine_.neighbour(cell, side, other) || box_of(other) != C))
-        return true;
+      const double c = fine_coefficient(child, side);
+      if (c > 0.0 && (!fine_.neighbour(cell, side, other) || box_of(other) != C))
+        sum += c * coarse_over_fine(C, side);
     }
-    return false;
+    return sum;
   }
 
   void split_into_parts(int n)
@@ -206,31 +222,31 @@ class Coarsening {
     const Index3 C = cuts_.cells[n].cell;
     const std::vector<int>& extras = boxes_[n].extras;
     list_children(n, children_);
-    const bool closed = join_inside(C, extras);
-    if (!closed && extras.empty())
+    const int cells = static_cast<int>(children_.size());
+    const int members = cells + static_cast<int>(extras.size());
+    passages_.reset(members);
+    find_passages_of_children(C);
+    find_passages_of_extras(C, extras);
+    if (!passages_.has_sides())
       return;
-    const int members = static_cast<int>(children_.size() + extras.size());
-    const auto unknown_of = [&](int m) {
-      const int cells = static_cast<int>(children_.size());
-      return m < cells ? fine_.key(children_[m].cell) : extra_unknown(extras[m - cells]);
-    };
+    for (int m = 0; m < members; ++m)
+      passages_.lead_out(m, outward(C, m < cells ? fine_.key(children_[m].cell) : extra_unknown(extras[m - cells])));
+    const std::vector<int>& part = passages_.parts();
     std::vector<double> measure(members, 0.0);
     std::vector<char> open(members, 0);
     for (int m = 0; m < members; ++m) {
-      const int cells = static_cast<int>(children_.size());
-      const double own = m >= cells                    ? fine_cuts_.extras[extras[m - cells]].measure
-                         : children_[m].cut != nullptr ? children_[m].cut->measure
-                                                       : fine_.measure(children_[m].cell);
-      measure[sets_.find(m)] += own;
-      open[sets_.find(m)] |= static_cast<char>(reaches_out(C, unknown_of(m)));
+      measure[part[m]] += m >= cells                    ? fine_cuts_.extras[extras[m - cells]].measure
+                          : children_[m].cut != nullptr ? children_[m].cut->measure
+                                                        : fine_.measure(children_[m].cell);
+      open[part[m]] |= static_cast<char>(passages_.leads_out(m));
     }
-    int largest = sets_.find(0);
+    int largest = part[0];
     for (int m = 0; m < members; ++m)
-      if (sets_.find(m) == m && std::pair(open[m], measure[m]) > std::pair(open[largest], measure[largest]))
+      if (part[m] == m && std::pair(open[m], measure[m]) > std::pair(open[largest], measure[largest]))
         largest = m;
     std::vector<Unknown> unknown(members, no_unknown);
     for (int m = 0; m < members; ++m) {
-      if (sets_.find(m) != m)
+      if (part[m] != m)
         continue;
       if (m == largest) {
         unknown[m] = coarse_.key(C);
@@ -246,10 +262,10 @@ class Coarsening {
     std::array<Unknown, 8> parts;
     parts.fill(no_unknown);
     for (std::size_t m = 0; m < children_.size(); ++m)
-      parts[children_[m].position] = unknown[sets_.find(static_cast<int>(m))];
+      parts[children_[m].position] = unknown[part[m]];
     cuts_.parts.push_back(parts);
     for (std::size_t m = 0; m < extras.size(); ++m)
-      fine_cuts_.parent_of_extra[extras[m]] = unknown[sets_.find(static_cast<int>(children_.size() + m))];
+      fine_cuts_.parent_of_extra[extras[m]] = unknown[part[cells + m]];
   }
 
   void add_neighbours_of_split_cells()
@@ -268,14 +284,15 @@ class Coarsening {
   /// Whether the coarse cell on a side of the n-th cut one holds several values.
   [[nodiscard]] bool beside_split(int n, int side) const { return (beside_split_[n] >> side & 1) != 0; }
 
-  /// A coarse coefficient is the sum of the fine ones of its face times fine over coarse distance.
+  /// A coarse coefficient is the sum of the fine ones of its face times fine over coarse distance; within a cell the
+  /// plain sum.
   void sum_coefficients(int n, const std::vector<int>& extras)
   {
     CutCell& cut = cuts_.cells[n];
     const Index3 C = cut.cell;
     const Unknown key = coarse_.key(C);
     const auto add = [&](Unknown from, Unknown to, int side, double fine_coefficient) {
-      const double c = fine_coefficient * merges_[side / 2].scale[C[side / 2] + side % 2];
+      const double c = fine_coefficient * coarse_over_fine(C, side);
       if (c == 0.0)
         return;
       if (from == key && (to == outside || is_cell(to)))
@@ -283,12 +300,18 @@ class Coarsening {
       else
         cuts_.links.push_back({from, to, side, c});
     };
+    const auto add_within = [&](Unknown from, Unknown to, double c) {
+      if (from != to)
+        cuts_.links.push_back({from, to, within, c});
+    };
     const auto add_links = [&](Unknown x) {
       for (const Link& link : fine_cuts_.links_from(x))
         if (link.to == outside)
           add(parent_of(x), outside, link.side, link.coefficient);
         else if (box_of(fine_cell_of(link.to)) != C)
           add(parent_of(x), parent_of(link.to), link.side, link.coefficient);
+        else
+          add_within(parent_of(x), parent_of(link.to), link.coefficient);
     };
     list_children(n, children_);
     for (const Child& child : children_) {
@@ -299,10 +322,13 @@ class Coarsening {
         if (!(c > 0.0))
           continue;
         const bool inside = fine_.neighbour(child.cell, side, other);
-        if (inside && box_of(other) == C)
+        if (inside && box_of(other) == C) {
+          if (cut.split() && other != child.cell)
+            add_within(parent_of(x), parent_of(fine_.key(other)), c);
           continue;
+        }
         if (!cut.split() && !beside_split(n, side))
-          cut.coefficient[side] += c * merges_[side / 2].scale[C[side / 2] + side % 2];
+          cut.coefficient[side] += c * coarse_over_fine(C, side);
         else
           add(parent_of(x), inside ? parent_of(fine_.key(other)) : outside, side, c);
       }
@@ -354,7 +380,7 @@ class Coarsening {
   std::vector<Members> boxes_;
   std::vector<unsigned char> beside_split_;  // bit per side
   std::vector<Child> children_;
-  Sets sets_;
+  Passages passages_;
   const std::vector<int> none_;
 };
 

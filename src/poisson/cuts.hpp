@@ -95,11 +95,14 @@ struct Extra {
   double measure = 0.0;
 };
 
+/// Side of links between two unknowns of one cell.
+inline constexpr int within = -1;
+
 /// A coefficient between two unknowns of which one at least is an extra; each is listed from both ends.
 struct Link {
   Unknown from = no_unknown;
   Unknown to = no_unknown;
-  int side = 0;  ///< of `from`'s cell
+  int side = 0;  ///< of `from`'s cell, or within
   double coefficient = 0.0;
 };
 
@@ -139,9 +142,9 @@ struct Cuts {
 /// The finest level: cells beside blocked faces.
 [[nodiscard]] Cuts cuts_of_blocked_faces(const Box& box, std::span<const FaceIndex> faces);
 
-/// The next coarser level.  Inside every coarse cell, fine unknowns joined by open links become one unknown; the
-/// largest is the cell's own, the others become extras, so that two sides of a sheet are never averaged before they
-/// really meet.  Parts without a link to the outside become pockets.
+/// The next coarser level.  Inside every coarse cell, fine unknowns joined by open links become one unknown, unless a
+/// narrow passage alone joins them (Passages); the largest is the cell's own, the others become extras, so that two
+/// sides of a sheet are never averaged before they really meet.  Parts without a link to the outside become pockets.
 [[nodiscard]] Cuts coarsen_cuts(Cuts& fine_cuts, const Box& fine, const Box& coarse,
                                 const std::array<Merge, 3>& merges);
 

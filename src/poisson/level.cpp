@@ -364,11 +364,13 @@ std::ptrdiff_t Level::place(const Cuts&, Unknown x) const
   return layout_.index(c[0], c[1], c[2]);
 }
 
-/// The place of a neighbour, seen across periodic seams as a halo cell.
+/// The place of a neighbour, seen across periodic seams as a halo cell, or of the cell itself.
 std::ptrdiff_t Level::place_beside(const Cuts&, const Index3& cell, int side, Unknown x) const
 {
   if (!is_cell(x))
     return layout_.size + extra_number(x);
+  if (side == within)
+    return layout_.index(cell);
   Index3 c = cell;
   c[side / 2] += side % 2 == 0 ? -1 : 1;
   return layout_.index(c[0], c[1], c[2]);

@@ -10,7 +10,7 @@ namespace luff::poisson {
 
 namespace {
 
-constexpr double coarsest_cells = 100;      // dense inverse of at most this size
+constexpr double coarsest_cells = 200;      // dense inverse of at most this size
 constexpr double shared_cells = 20000;      // below this, work is repeated on every rank rather than shared out
 constexpr double smallest_reduction = 1.4;  // a level must be smaller than the one before by this factor
 

@@ -190,8 +190,9 @@ TEST(Cuts, AreTheSameFromBothEndsOfEveryLink)
       if (link.to == outside)
         continue;
       double back = 0.0;
+      const int opposite = link.side == within ? within : link.side ^ 1;
       for (const Link& other : cuts.links_from(link.to))
-        if (other.to == link.from && other.side == (link.side ^ 1))
+        if (other.to == link.from && other.side == opposite)
           back = other.coefficient;
       EXPECT_NEAR(link.coefficient, back, 1e-12);
     }
