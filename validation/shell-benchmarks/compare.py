@@ -7,7 +7,9 @@ Usage: validation/shell-benchmarks/compare.py [NAME...] [--out DIR] [--list]
 Each benchmark runs on the meshes listed here. A table is printed: where the run ended, the largest difference over the
 published points as a part of the largest published value, and the last published point with what was computed there. From the
 three finest meshes of a pattern follow the order p with which that value converges, by itself and not against the published one,
-and what it converges to: u_n = u + c h_n^p for n = 1, 2, 3. Writes
+and what it converges to: u_n = u + c h_n^p for n = 1, 2, 3. Where two errors of opposite sign cancel on some mesh, no such p
+exists; from the four finest meshes follow then p and the limit of u_n = u + a h_n^p + b h_n^(p + 2), and what a h_n^2 + b h_n^4
+through the first three of them predicts for the last. Writes
 DIR/<name>.png (default validation/shell-benchmarks/results). A finished run in DIR is used again.
 """
 import argparse
@@ -117,6 +119,13 @@ def semi_cylinder(divisions, **more):
     )
 
 
+def hemisphere(which=slice(None)):
+    return [
+        Curve("out", "out", "x", 1, table("sze2004_hemisphere_18deg_hole.csv", "V_A_out")[which]),
+        Curve("in", "in", "y", -1, table("sze2004_hemisphere_18deg_hole.csv", "minus_U_B_in")[which]),
+    ]
+
+
 smoothed = {"shell.cylinder.membrane": '"smoothed"'}
 hencky = {"shell.cylinder.material.model": '"hencky"'}
 graded = {"shell.cylinder.mesh.grading": "[64, 0.015625]"}
@@ -154,11 +163,15 @@ BENCHMARKS = {
         meshes("strip", *((pattern, n, n // 16) for pattern in ("alternating", "irregular") for n in (32, 64, 128))),
     ),
     "hemisphere-large": Benchmark(
-        [
-            Curve("out", "out", "x", 1, table("sze2004_hemisphere_18deg_hole.csv", "V_A_out")),
-            Curve("in", "in", "y", -1, table("sze2004_hemisphere_18deg_hole.csv", "minus_U_B_in")),
-        ],
+        hemisphere(),
         refined("hemisphere", ("diagonal", "irregular"), (16, 32, 64, 128)),
+    ),
+    # Finer at the free edge, and in few steps, of which only the last is in the table.
+    "hemisphere-graded": Benchmark(
+        hemisphere(slice(-1, None)),
+        refined("hemisphere", ("diagonal",), (32, 48, 64, 96)),
+        settings={"shell.hemisphere.membrane": '"smoothed"', "shell.hemisphere.mesh.grading": "[1, 8]", "structure.steps": "5"},
+        case="hemisphere-large",
     ),
     "pullout-open-cylinder": pull_out((48, 72, 108), ("alternating", "irregular")),
     "pullout-hencky": pull_out((48, 72, 108), ("alternating",), settings=hencky, case="pullout-open-cylinder"),
@@ -171,6 +184,23 @@ BENCHMARKS = {
     "diaphragms-smoothed": diaphragms(("alternating",), settings=smoothed, case="pinched-cylinder-diaphragms"),
     "pinched-semicylinder": semi_cylinder({"alternating": (24, 36, 48, 72, 96), "irregular": (24, 36, 48)}),
     "semicylinder-smoothed": semi_cylinder({"alternating": (24, 36, 48, 72, 96)}, settings=smoothed, case="pinched-semicylinder"),
+    "semicylinder-diagonal": Benchmark(
+        [
+            Curve("-W", "force", "z", -1, table("sze2004_pinched_semicylinder.csv", "minus_W")),
+            Curve("-W, 19 from it", "near", "z", -1, []),
+        ],
+        meshes("cylinder", *(("diagonal", n, 4 * n // 3) for n in (36, 48, 72))),
+        settings=smoothed,
+        case="pinched-semicylinder",
+    ),
+    "diaphragms-spread": Benchmark(
+        [Curve("-W_A", "force", "z", -1, []), Curve("U_B", "side", "y", 1, [])],
+        meshes("cylinder", *(("diagonal", n, 2 * n // 3) for n in (60, 75, 90, 120))),
+    ),
+    "semicylinder-spread": Benchmark(
+        [Curve("-W", "force", "z", -1, []), Curve("-W, half way", "half", "z", -1, []), Curve("V, side", "side", "y", 1, [])],
+        meshes("cylinder", *(("diagonal", n, 4 * n // 3) for n in (36, 48, 72, 96))),
+    ),
     "hinged-roof": Benchmark(
         [Curve("-w", "force", "z", -1, [])], refined("roof", ("alternating", "irregular"), (12, 24, 48)), limit=first_maximum(12.7)
     ),
@@ -259,18 +289,25 @@ def report_limit(name, mesh, curve, limit, summary, seconds, out):
     return path, highest
 
 
+def root_between(f, low, high):
+    """Where f changes its sign, by bisection."""
+    at_low = f(low)
+    while high - low > 1e-6:
+        middle = (low + high) / 2
+        low, high = (middle, high) if f(middle) * at_low > 0 else (low, middle)
+    return low
+
+
 def observed_order(values, divisions):
-    """(p, u) of u_n = u + c h_n^p, h_n = 1/divisions, by bisection of (u1 - u2)/(u2 - u3) = (h1^p - h2^p)/(h2^p - h3^p), which
+    """(p, u) of u_n = u + c h_n^p, h_n = 1/divisions, from (u1 - u2)/(u2 - u3) = (h1^p - h2^p)/(h2^p - h3^p), which
     grows with p; none where differences change sign or fall more slowly than for any p."""
     u, h = np.array(values), divisions[-1] / np.array(divisions, float)
     ratio = lambda p: (h[0] ** p - h[1] ** p) / (h[1] ** p - h[2] ** p)
     low, high = 1e-3, 16.0
     if u[1] == u[2] or not ratio(low) < (u[0] - u[1]) / (u[1] - u[2]) < ratio(high):
         return None
-    while high - low > 1e-6:
-        middle = (low + high) / 2
-        low, high = (middle, high) if ratio(middle) < (u[0] - u[1]) / (u[1] - u[2]) else (low, middle)
-    return low, u[2] - (u[1] - u[2]) / (h[1] ** low - 1)
+    order = root_between(lambda p: ratio(p) - (u[0] - u[1]) / (u[1] - u[2]), low, high)
+    return order, u[2] - (u[1] - u[2]) / (h[1] ** order - 1)
 
 
 def report_order(name, mesh, label, values, divisions, reference, scale):
@@ -290,9 +327,41 @@ def report_order(name, mesh, label, values, divisions, reference, scale):
     )
 
 
+def two_terms(order, divisions):
+    """Columns 1, h^p, h^(p + 2)."""
+    h = divisions[-1] / np.array(divisions, float)
+    return np.stack([np.ones(len(h)), h**order, h ** (order + 2)], axis=1)
+
+
+def orders_of_two_terms(values, divisions):
+    """All p in [0.3, 5] for which u_n = u + a h_n^p + b h_n^(p + 2) on four meshes: none to two."""
+    u = np.array(values) - values[-1]
+    left = lambda p: np.linalg.det(np.column_stack([two_terms(p, divisions), u]))
+    tried = np.linspace(0.3, 5, 236)
+    signs = np.sign([left(p) for p in tried])
+    return [root_between(left, *tried[n : n + 2]) for n in np.nonzero(signs[:-1] * signs[1:] < 0)[0]]
+
+
+def report_two_terms(name, mesh, label, values, divisions, scale):
+    """From values on four meshes, the finest last."""
+    orders = " or ".join(f"{p:.2f}" for p in orders_of_two_terms(values, divisions)) or "none"
+    terms = two_terms(2, divisions)
+    limit, *_ = coefficients = np.linalg.solve(terms[:3], values[:3])
+    predicted = terms[3] @ coefficients
+    print(
+        f"{name} | {mesh} | {label} by two terms | order {orders} | h^2, h^4 through the first three "
+        f"converge to {limit:.6g} | and make the last {predicted:.6g}, which is {values[3]:.6g}, "
+        f"{100 * (values[3] - predicted) / scale:+.4f} % off and {100 * (values[3] - values[2]) / scale:+.4f} % from the one before",
+        flush=True,
+    )
+
+
 def report_orders(name, benchmark, found):
     """`found`: values by (pattern, label) and divisions."""
     for (pattern, label), by_divisions in found.items():
+        if len(by_divisions) >= 4 and not benchmark.limit:
+            finest = sorted(by_divisions)[-4:]
+            report_two_terms(name, pattern, label, [by_divisions[n] for n in finest], finest, abs(by_divisions[finest[-1]]))
         divisions = sorted(by_divisions)[-3:]
         if len(divisions) < 3:
             continue
