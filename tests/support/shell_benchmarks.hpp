@@ -186,16 +186,11 @@ inline double pinched_cylinder(const Discretisation& d)
 }
 
 /// Hemisphere with a hole of 18 degrees, pulled and pushed at four points of its equator; displacement under them
-/// [macneal_1985_proposed], with the value 0.0935 that later studies settled on.
-inline double pinched_hemisphere(const Discretisation& d)
+/// [macneal_1985_proposed], with the value 0.0935 that later studies settled on. `mesh`: a quarter.
+inline double pinched_hemisphere_on(const surface::TriangleMesh& mesh, const Discretisation& d)
 {
   using namespace benchmark;
-  constexpr double radius = 10, height = 72 * pi / 180, published = 0.0935;
-  const TriangleMesh mesh = bent(d, radius * pi / 2, radius * height, [](double s, double t) {
-    const double longitude = s / radius, latitude = t / radius;
-    return Vec3(radius * std::cos(latitude) * std::cos(longitude), radius * std::cos(latitude) * std::sin(longitude),
-                radius * std::sin(latitude));
-  });
+  constexpr double radius = 10, published = 0.0935;
   const int pulled = vertex_at(mesh, Vec3(radius, 0, 0)), pushed = vertex_at(mesh, Vec3(0, radius, 0));
   const Shell quarter(mesh, properties(d, 0.04, 6.825e7, 0.3),
                       {symmetric(mesh, 0, 0),
@@ -205,6 +200,29 @@ inline double pinched_hemisphere(const Discretisation& d)
   f[3 * pulled] = 1;
   f[3 * pushed + 1] = -1;
   return linear_displacement(quarter, f)[3 * pulled] / published;
+}
+
+inline double pinched_hemisphere(const Discretisation& d)
+{
+  constexpr double radius = 10, height = 72 * benchmark::pi / 180;
+  const auto on_sphere = [](double s, double t) {
+    const double longitude = s / radius, latitude = t / radius;
+    return Vec3(radius * std::cos(latitude) * std::cos(longitude), radius * std::cos(latitude) * std::sin(longitude),
+                radius * std::sin(latitude));
+  };
+  return pinched_hemisphere_on(benchmark::bent(d, radius * benchmark::pi / 2, radius * height, on_sphere), d);
+}
+
+/// The same with spacings that grow `growth` times from the equator to the hole.
+inline double pinched_hemisphere_graded(const Discretisation& d, double growth)
+{
+  return pinched_hemisphere_on(surface::sphere_cap({.radius = 10,
+                                                    .polar = {18, 90},
+                                                    .angle = {0, 90},
+                                                    .divisions = {d.n, d.n},
+                                                    .grading = {1, growth},
+                                                    .pattern = d.pattern}),
+                               d);
 }
 
 /// Slender cantilever bent in its own plane by an end force, n by n/5; deflection of the end over that of a beam with

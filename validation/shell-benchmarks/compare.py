@@ -195,7 +195,7 @@ BENCHMARKS = {
     ),
     "diaphragms-spread": Benchmark(
         [Curve("-W_A", "force", "z", -1, []), Curve("U_B", "side", "y", 1, [])],
-        meshes("cylinder", *(("diagonal", n, 2 * n // 3) for n in (60, 75, 90, 120))),
+        meshes("cylinder", *(("diagonal", n, 2 * n // 3) for n in (60, 90, 120, 150))),
     ),
     "semicylinder-spread": Benchmark(
         [Curve("-W", "force", "z", -1, []), Curve("-W, half way", "half", "z", -1, []), Curve("V, side", "side", "y", 1, [])],
