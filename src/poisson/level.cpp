@@ -211,11 +211,7 @@ void Level::start_plane(int k, int colour, Values& x, const Values& b)
       out[n] = rhs[n] * row.inverse(n);
   });
   for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row) {
-    float sum = b[row->place];
-    for (int e = row->begin; e < row->end; ++e)
-      if (entries_[e].place >= layout_.size)
-        sum += entries_[e].coefficient * x[entries_[e].place];
-    x[row->place] = sum * row->inverse;
+    x[row->place] = (b[row->place] + sum_of_extras(*row, x.data())) * row->inverse;
   }
   exchange_.close_plane(x.data(), k, colour == 0 ? Colours::Red : Colours::Black);
 }
@@ -282,6 +278,15 @@ float Level::neighbour_sum(const Row& row, const float* values) const
   return sum;
 }
 
+float Level::sum_of_extras(const Row& row, const float* values) const
+{
+  float sum = 0.0f;
+  for (int e = row.begin; e < row.end; ++e)
+    if (entries_[e].place >= layout_.size)
+      sum += entries_[e].coefficient * values[entries_[e].place];
+  return sum;
+}
+
 float Level::image(const Row& row, const float* values) const
 {
   const float own = values[row.place];
@@ -291,20 +296,30 @@ float Level::image(const Row& row, const float* values) const
   return sum;
 }
 
+void Level::relax_extra_rows(int begin, int end, Order order, Values& x, const Values& b) const
+{
+  for (int t = begin; t < end; ++t) {
+    const Row& row = extra_rows_[order == Order::Forward ? t : begin + end - 1 - t];
+    x[row.place] = (b[row.place] + neighbour_sum(row, x.data())) * row.inverse;
+  }
+}
+
+void Level::relax_extras_plane(int k, Order order)
+{
+  const auto [begin, end] = extra_rows_of_plane_[k - layout_.owned.lo[2]];
+  relax_extra_rows(begin, end, order, u, f);
+}
+
 void Level::relax_extras(Order order, bool from_zero, Values& x, const Values& b)
 {
   if (extras_ == 0)
     return;
-  if (from_zero)
+  if (from_zero) {
     std::fill_n(x.data() + layout_.size, extras_, 0.0f);
-  const int n = static_cast<int>(extra_rows_.size());
-  for (int t = 0; t < n; ++t) {
-    const Row& row = extra_rows_[order == Order::Forward ? t : n - 1 - t];
-    float sum = b[row.place];
-    for (int e = row.begin; e < row.end; ++e)
-      if (!from_zero || entries_[e].place >= layout_.size)
-        sum += entries_[e].coefficient * x[entries_[e].place];
-    x[row.place] = sum * row.inverse;
+    for (const Row& row : extra_rows_)
+      x[row.place] = (b[row.place] + sum_of_extras(row, x.data())) * row.inverse;
+  } else {
+    relax_extra_rows(0, static_cast<int>(extra_rows_.size()), order, x, b);
   }
   share_extras(x.data());
 }
@@ -430,6 +445,22 @@ void Level::add_extra_row(const Cuts& cuts, int e)
   finish_row(static_cast<std::int32_t>(layout_.size + e), begin, grounded, extra_rows_);
 }
 
+/// By planes, the even ones first: extras of planes of one parity know nothing of each other.
+void Level::add_extra_rows(const Cuts& cuts)
+{
+  const auto plane = [&](int e) { return cuts.extras[e].cell[2]; };
+  std::stable_sort(owned_extras_.begin(), owned_extras_.end(),
+                   [&](int a, int b) { return std::pair(plane(a) & 1, plane(a)) < std::pair(plane(b) & 1, plane(b)); });
+  extra_rows_of_plane_.assign(layout_.owned.extent(2), {0, 0});
+  for (const int e : owned_extras_) {
+    auto& [begin, end] = extra_rows_of_plane_[plane(e) - layout_.owned.lo[2]];
+    if (begin == end)
+      begin = static_cast<int>(extra_rows_.size());
+    add_extra_row(cuts, e);
+    end = static_cast<int>(extra_rows_.size());
+  }
+}
+
 void Level::set_cuts(const Cuts& cuts)
 {
   rows_.clear();
@@ -462,10 +493,9 @@ void Level::set_cuts(const Cuts& cuts)
     first_row_[g + 1] = static_cast<int>(rows_.size());
   }
   for (int e = 0; e < extras_; ++e)
-    if (owned.contains(cuts.extras[e].cell)) {
+    if (owned.contains(cuts.extras[e].cell))
       owned_extras_.push_back(e);
-      add_extra_row(cuts, e);
-    }
+  add_extra_rows(cuts);
 }
 
 }  // namespace luff::poisson

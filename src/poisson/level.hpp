@@ -61,9 +61,12 @@ class Level {
   double apply_plane(int k, const float* p, float* q) const;
 
   enum class Order { Forward, Backward };
-  /// Gauss-Seidel over this rank's extras, then shares them.  From u = 0, only extras are read.
+  /// Gauss-Seidel over this rank's extras, those of even planes first, then shares them.  From u = 0, only extras are
+  /// read.
   void relax_extras(Order order, bool from_zero, Values& x, const Values& b);
   void relax_extras(Order order, bool from_zero) { relax_extras(order, from_zero, u, f); }
+  /// The same for those of one plane.
+  void relax_extras_plane(int k, Order order);
   void residual_extras();
   void share_extras(float* values) const;
   /// Collective: what every rank contributed to the values of a level that all hold whole.
@@ -90,6 +93,7 @@ class Level {
   void for_rows(int k, int colour, const float* values, Work work) const;
   [[nodiscard]] Faces faces(int j, int k) const;
   void add_cell_row(const Cuts& cuts, const CutCell& cut);
+  void add_extra_rows(const Cuts& cuts);
   void add_extra_row(const Cuts& cuts, int e);
   void finish_row(std::int32_t place, int begin, double grounded, std::vector<Row>& rows);
   [[nodiscard]] std::ptrdiff_t place_beside(const Cuts& cuts, const Index3& cell, int side, Unknown x) const;
@@ -97,6 +101,8 @@ class Level {
   [[nodiscard]] const Row* rows_begin(int k, int colour) const;
   [[nodiscard]] const Row* rows_end(int k, int colour) const;
   [[nodiscard]] float neighbour_sum(const Row& row, const float* values) const;
+  [[nodiscard]] float sum_of_extras(const Row& row, const float* values) const;
+  void relax_extra_rows(int begin, int end, Order order, Values& x, const Values& b) const;
   [[nodiscard]] float image(const Row& row, const float* values) const;
 
   Layout layout_;
@@ -113,8 +119,9 @@ class Level {
   int extras_ = 0;
   std::vector<int> owned_extras_;
   std::vector<Row> rows_;
-  std::vector<int> first_row_;  // per (plane, colour)
-  std::vector<Row> extra_rows_;
+  std::vector<int> first_row_;                            // per (plane, colour)
+  std::vector<Row> extra_rows_;                           // of even planes, then of odd ones
+  std::vector<std::pair<int, int>> extra_rows_of_plane_;  // first, and one after the last
   std::vector<Entry> entries_;
 };
 

@@ -334,9 +334,60 @@ bool Multigrid::waves_between_halos(std::size_t l) const
          threads_for(level.layout().owned) == 1;
 }
 
+namespace {
+
+/// What smoothing does on a plane.  Extras are relaxed plane by plane, or all at once where planes come from elsewhere.
+enum class Stage { Prolong, Start, Red, Black, EvenExtras, OddExtras, AllExtras, Prepare, Residual, After };
+
+void add_extras(std::vector<Stage>& stages, Level& level, Level::Order order)
+{
+  if (level.extras() == 0)
+    return;
+  if (!level.exchange().within_planes())
+    stages.push_back(Stage::AllExtras);
+  else if (order == Level::Order::Forward)
+    stages.insert(stages.end(), {Stage::EvenExtras, Stage::OddExtras});
+  else
+    stages.insert(stages.end(), {Stage::OddExtras, Stage::EvenExtras});
+}
+
+std::vector<Stage> stages_down(Level& level, int sweeps, bool cross_terms)
+{
+  std::vector<Stage> stages{Stage::Start, Stage::Black};
+  for (int n = 1; n < sweeps; ++n) {
+    add_extras(stages, level, Level::Order::Forward);
+    stages.insert(stages.end(), {Stage::Red, Stage::Black});
+  }
+  if (cross_terms)
+    stages.push_back(Stage::Prepare);
+  stages.push_back(Stage::Residual);
+  return stages;
+}
+
+std::vector<Stage> stages_up(Level& level, int sweeps)
+{
+  std::vector<Stage> stages{Stage::Prolong};
+  for (int n = 0; n < sweeps; ++n) {
+    stages.insert(stages.end(), {Stage::Black, Stage::Red});
+    add_extras(stages, level, Level::Order::Backward);
+  }
+  stages.push_back(Stage::After);
+  return stages;
+}
+
+/// Cells of a colour, or extras where the plane is one of their stage.
+void relax(Level& level, Stage stage, int k, Level::Order order)
+{
+  if (stage == Stage::Red || stage == Stage::Black)
+    level.relax_plane(k, stage == Stage::Red ? 0 : 1);
+  else if ((k & 1) == (stage == Stage::EvenExtras ? 0 : 1))
+    level.relax_extras_plane(k, order);
+}
+
+}  // namespace
+
 void Multigrid::smooth_from_zero(std::size_t l)
 {
-  const int sweeps = sweeps_[l];
   Level& level = *levels_[l];
   CrossTerms* const cross = cross_terms_.empty() ? nullptr : cross_terms_[l];
   RowExchange& halo = level.exchange();
@@ -355,40 +406,41 @@ void Multigrid::smooth_from_zero(std::size_t l)
       halo.close_plane(level.r.data(), k, Colours::Both);
     }
   };
-  const int prepare = 2 * sweeps;
-  const auto stage = [&](int s, int k) {
-    if (s == 0)
+  const std::vector<Stage> stages = stages_down(level, sweeps_[l], cross != nullptr);
+  const int count = static_cast<int>(stages.size());
+  const auto work = [&](int s, int k) {
+    if (stages[s] == Stage::Start)
       level.start_plane(k);
-    else if (s < 2 * sweeps)
-      level.relax_plane(k, s % 2);
-    else if (s == prepare && cross != nullptr)
+    else if (stages[s] == Stage::Prepare)
       cross->prepare_plane(k, level.u.data());
-    else
+    else if (stages[s] == Stage::Residual)
       residual_plane(k);
+    else
+      relax(level, stages[s], k, Level::Order::Forward);
   };
-  const int stages = 2 * sweeps + (cross != nullptr ? 2 : 1);
   const auto share = [&](int s) {
-    if (s + 1 == 2 * sweeps && cross != nullptr)
+    if (s + 1 < count && stages[s + 1] == Stage::Prepare)
       halo.exchange_with_edges(level.u.data());
-    else if (s < 2 * sweeps)
-      halo.exchange(level.u.data(), s % 2 == 0 ? Colours::Red : Colours::Black);
+    else if (stages[s] == Stage::Start || stages[s] == Stage::Red)
+      halo.exchange(level.u.data(), Colours::Red);
+    else if (stages[s] == Stage::Black)
+      halo.exchange(level.u.data(), Colours::Black);
   };
-  const bool wave = halo.within_planes() && level.extras() == 0;
+  const bool wave = halo.within_planes();
   if (cross != nullptr)
     cross->keep_all_planes(!wave || threads > 1);
   if (wave) {
-    run_stages(owned.lo[2], owned.hi[2], stages, threads, stage);
-    return;
-  }
-  if (waves_between_halos(l)) {
-    run_stages_between_halos(owned.lo[2], owned.hi[2], stages, stage, share);
-    return;
-  }
-  for (int s = 0; s < stages; ++s) {
-    if (s > 0 && s < 2 * sweeps && s % 2 == 0)
-      level.relax_extras(Level::Order::Forward, /*from_zero=*/false);
-    run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { stage(s, k); });
-    share(s);
+    run_stages(owned.lo[2], owned.hi[2], count, threads, work);
+  } else if (waves_between_halos(l)) {
+    run_stages_between_halos(owned.lo[2], owned.hi[2], count, work, share);
+  } else {
+    for (int s = 0; s < count; ++s) {
+      if (stages[s] == Stage::AllExtras)
+        level.relax_extras(Level::Order::Forward, /*from_zero=*/false);
+      else
+        run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { work(s, k); });
+      share(s);
+    }
   }
   level.residual_extras();
 }
@@ -401,36 +453,35 @@ void Multigrid::smooth(std::size_t l, const PlaneWork& after)
   const IndexBox& owned = level.layout().owned;
   const int threads = threads_for(owned);
   correction.begin_prolongation();
-  const int stages = 2 * sweeps_[l] + 1;
-  const auto stage = [&](int s, int k) {
-    if (s == 0)
+  const std::vector<Stage> stages = stages_up(level, sweeps_[l]);
+  const int count = static_cast<int>(stages.size());
+  const auto work = [&](int s, int k) {
+    if (stages[s] == Stage::Prolong)
       correction.prolong_plane(k);
-    else if (s < stages)
-      level.relax_plane(k, s % 2);
-    else
+    else if (stages[s] == Stage::After)
       after(k);
+    else
+      relax(level, stages[s], k, Level::Order::Backward);
   };
   const auto share = [&](int s) {
-    if (s == 0)
+    if (stages[s] == Stage::Prolong)
       halo.exchange(level.u.data(), level.residual_colours());
-    else if (s < stages)
-      halo.exchange(level.u.data(), s % 2 == 0 ? Colours::Red : Colours::Black);
+    else if (stages[s] == Stage::Red || stages[s] == Stage::Black)
+      halo.exchange(level.u.data(), stages[s] == Stage::Red ? Colours::Red : Colours::Black);
   };
-  if (halo.within_planes() && level.extras() == 0) {
-    run_stages(owned.lo[2], owned.hi[2], stages + 1, threads, stage);
-    return;
+  if (halo.within_planes()) {
+    run_stages(owned.lo[2], owned.hi[2], count, threads, work);
+  } else if (waves_between_halos(l)) {
+    run_stages_between_halos(owned.lo[2], owned.hi[2], count, work, share);
+  } else {
+    for (int s = 0; s < count; ++s) {
+      if (stages[s] == Stage::AllExtras)
+        level.relax_extras(Level::Order::Backward, /*from_zero=*/false);
+      else
+        run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { work(s, k); });
+      share(s);
+    }
   }
-  if (waves_between_halos(l)) {
-    run_stages_between_halos(owned.lo[2], owned.hi[2], stages + 1, stage, share);
-    return;
-  }
-  for (int s = 0; s < stages; ++s) {
-    run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { stage(s, k); });
-    share(s);
-    if (s > 0 && s % 2 == 0)
-      level.relax_extras(Level::Order::Backward, /*from_zero=*/false);
-  }
-  run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { after(k); });
 }
 
 /// u += P u_coarse, r = f - A u with all terms, then u += S^T r: the transpose of smooth_from_zero(), whose sweeps S
