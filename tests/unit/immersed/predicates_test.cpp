@@ -70,7 +70,8 @@ TEST(Area, IsExactWhereDifferencesOfCoordinatesAreNotRepresentable)
   EXPECT_EQ(sum.term(1), 1.0);
 }
 
-/// Points with whole coordinates far from the origin, close to one plane and a line in it, so that the volume is all cancellation.
+/// Points with whole coordinates far from the origin, close to one plane and a line in it, so that the volume is all
+/// cancellation.
 struct NearlyCoplanar {
   std::array<std::array<std::int64_t, 3>, 4> whole;
 
