@@ -139,9 +139,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("cases", nargs="*", metavar="CASE", default=list(windows))
     parser.add_argument("--edges", choices=("whole", "partial"), default="whole")
-    parser.add_argument("--levels", nargs="+", type=int, default=[16, 24, 36], metavar="N", help="cells per length")
+    parser.add_argument("--levels", nargs="+", type=int, default=[16, 24, 36], metavar="N", help="cells per length, three or more")
     parser.add_argument("--out", type=Path)
     arguments = parser.parse_args()
+    if len(arguments.levels) < 3 or any(b != ratio * a for a, b in zip(arguments.levels, arguments.levels[1:])):
+        parser.error("--levels takes three or more, each 1.5 times the one before")
     if arguments.out is None:
         arguments.out = here / "results" / ("partial" if arguments.edges == "partial" else "")
     figure, axes = plt.subplots(len(arguments.cases), 1, figsize=(9, 4 * len(arguments.cases)), squeeze=False)
