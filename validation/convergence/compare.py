@@ -3,7 +3,7 @@
 """Runs two-dimensional flags and a plate that swings out on three grids or more, cells and time step together, and prints the
 observed order of amplitude and frequency of the tip.
 
-Usage: validation/convergence/compare.py [--edges partial] [--levels N N N...] [--out DIR] [CASE...]
+Usage: validation/convergence/compare.py [CASE...] [--edges partial] [--levels N N N...] [--out DIR]
 
 CASE is flag-2d, inverted-flag-2d, plate, plate-small or plate-inviscid; all of them without one.  Each level has 1.5 times the
 cells of the one before, everywhere, and steps shorter by as much.  With values a, b, c of three in turn the order is
