@@ -384,6 +384,31 @@ void relax(Level& level, Stage stage, int k, Level::Order order)
     level.relax_extras_plane(k, order);
 }
 
+/// All stages: in a wave of planes where planes need nothing from elsewhere, in one between the halos where they
+/// allow it, else one after the other, each shared before the next.
+template <class Work, class Share>
+void run_smoothing(Level& level, const std::vector<Stage>& stages, Level::Order order, bool between_halos, int threads,
+                   const Work& work, const Share& share)
+{
+  const IndexBox& owned = level.layout().owned;
+  const int count = static_cast<int>(stages.size());
+  if (level.exchange().within_planes()) {
+    run_stages(owned.lo[2], owned.hi[2], count, threads, work);
+    return;
+  }
+  if (between_halos) {
+    run_stages_between_halos(owned.lo[2], owned.hi[2], count, work, share);
+    return;
+  }
+  for (int s = 0; s < count; ++s) {
+    if (stages[s] == Stage::AllExtras)
+      level.relax_extras(order, /*from_zero=*/false);
+    else
+      run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { work(s, k); });
+    share(s);
+  }
+}
+
 }  // namespace
 
 void Multigrid::smooth_from_zero(std::size_t l)
@@ -391,8 +416,7 @@ void Multigrid::smooth_from_zero(std::size_t l)
   Level& level = *levels_[l];
   CrossTerms* const cross = cross_terms_.empty() ? nullptr : cross_terms_[l];
   RowExchange& halo = level.exchange();
-  const IndexBox& owned = level.layout().owned;
-  const int threads = threads_for(owned);
+  const int threads = threads_for(level.layout().owned);
   const Colours residual = level.residual_colours();
   if (level.colours_clash())
     std::fill_n(level.u.data(), level.u.size(), 0.0f);
@@ -407,7 +431,6 @@ void Multigrid::smooth_from_zero(std::size_t l)
     }
   };
   const std::vector<Stage> stages = stages_down(level, sweeps_[l], cross != nullptr);
-  const int count = static_cast<int>(stages.size());
   const auto work = [&](int s, int k) {
     if (stages[s] == Stage::Start)
       level.start_plane(k);
@@ -419,29 +442,16 @@ void Multigrid::smooth_from_zero(std::size_t l)
       relax(level, stages[s], k, Level::Order::Forward);
   };
   const auto share = [&](int s) {
-    if (s + 1 < count && stages[s + 1] == Stage::Prepare)
+    if (s + 1 < static_cast<int>(stages.size()) && stages[s + 1] == Stage::Prepare)
       halo.exchange_with_edges(level.u.data());
     else if (stages[s] == Stage::Start || stages[s] == Stage::Red)
       halo.exchange(level.u.data(), Colours::Red);
     else if (stages[s] == Stage::Black)
       halo.exchange(level.u.data(), Colours::Black);
   };
-  const bool wave = halo.within_planes();
   if (cross != nullptr)
-    cross->keep_all_planes(!wave || threads > 1);
-  if (wave) {
-    run_stages(owned.lo[2], owned.hi[2], count, threads, work);
-  } else if (waves_between_halos(l)) {
-    run_stages_between_halos(owned.lo[2], owned.hi[2], count, work, share);
-  } else {
-    for (int s = 0; s < count; ++s) {
-      if (stages[s] == Stage::AllExtras)
-        level.relax_extras(Level::Order::Forward, /*from_zero=*/false);
-      else
-        run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { work(s, k); });
-      share(s);
-    }
-  }
+    cross->keep_all_planes(!halo.within_planes() || threads > 1);
+  run_smoothing(level, stages, Level::Order::Forward, waves_between_halos(l), threads, work, share);
   level.residual_extras();
 }
 
@@ -450,11 +460,9 @@ void Multigrid::smooth(std::size_t l, const PlaneWork& after)
   Level& level = *levels_[l];
   Transfer& correction = *transfers_[l];
   RowExchange& halo = level.exchange();
-  const IndexBox& owned = level.layout().owned;
-  const int threads = threads_for(owned);
+  const int threads = threads_for(level.layout().owned);
   correction.begin_prolongation();
   const std::vector<Stage> stages = stages_up(level, sweeps_[l]);
-  const int count = static_cast<int>(stages.size());
   const auto work = [&](int s, int k) {
     if (stages[s] == Stage::Prolong)
       correction.prolong_plane(k);
@@ -469,19 +477,7 @@ void Multigrid::smooth(std::size_t l, const PlaneWork& after)
     else if (stages[s] == Stage::Red || stages[s] == Stage::Black)
       halo.exchange(level.u.data(), stages[s] == Stage::Red ? Colours::Red : Colours::Black);
   };
-  if (halo.within_planes()) {
-    run_stages(owned.lo[2], owned.hi[2], count, threads, work);
-  } else if (waves_between_halos(l)) {
-    run_stages_between_halos(owned.lo[2], owned.hi[2], count, work, share);
-  } else {
-    for (int s = 0; s < count; ++s) {
-      if (stages[s] == Stage::AllExtras)
-        level.relax_extras(Level::Order::Backward, /*from_zero=*/false);
-      else
-        run_stages(owned.lo[2], owned.hi[2], 1, threads, [&](int, int k) { work(s, k); });
-      share(s);
-    }
-  }
+  run_smoothing(level, stages, Level::Order::Backward, waves_between_halos(l), threads, work, share);
 }
 
 /// u += P u_coarse, r = f - A u with all terms, then u += S^T r: the transpose of smooth_from_zero(), whose sweeps S
