@@ -41,6 +41,12 @@ def run_text(text, folder):
     return run(folder / "case.toml", out)
 
 
+def refined_axis(low, high, cells, zone, spacing):
+    """An axis of a box grid from low to high, for --set grid.x=..., with cells of a spacing within a zone (from, to)."""
+    refined = f"{{ from = {zone[0]}, to = {zone[1]}, spacing = {spacing:.10g} }}"
+    return f"{{ from = {low}, to = {high}, cells = {cells}, refine = {refined} }}"
+
+
 def columns(table):
     """{name without its unit: values} of a table that a run wrote; cells without a value are NaN."""
     with open(table) as file:

@@ -30,7 +30,7 @@ import numpy as np
 
 here = Path(__file__).resolve().parent
 sys.path.insert(0, str(here.parent))
-from comparison import columns, root, run
+from comparison import columns, refined_axis, root, run
 
 ratio = 1.5
 windows = {
@@ -46,16 +46,11 @@ def is_plate(case):
     return case.startswith("plate")
 
 
-def line(low, high, cells, refined_from, refined_to, spacing):
-    refined = f"{{ from = {refined_from}, to = {refined_to}, spacing = {spacing:.10g} }}"
-    return f"{{ from = {low}, to = {high}, cells = {cells}, refine = {refined} }}"
-
-
 def flag_settings(case, cells):
     """The same grid but for its spacing: 80 x 60 cells with 16 on the flag."""
     return [
-        "grid.x=" + line(-4.0, 10.0, 5 * cells, -1.0, 2.0, 1.0 / cells),
-        "grid.y=" + line(-4.0, 4.0, 15 * cells // 4, -1.0, 1.0, 1.0 / cells),
+        "grid.x=" + refined_axis(-4.0, 10.0, 5 * cells, (-1.0, 2.0), 1.0 / cells),
+        "grid.y=" + refined_axis(-4.0, 4.0, 15 * cells // 4, (-1.0, 1.0), 1.0 / cells),
         f"shell.flag.mesh.divisions=[{cells}, 1]",
         "coupling.tolerance=1e-7",
         f"time.end={windows[case][-1][1]}",
@@ -66,8 +61,8 @@ def plate_settings(case, cells):
     """The same grid but for its spacing: 56 x 40 cells with 16 on the plate."""
     load = 'shell.plate.load=[{ where = { box = [[-1, -1, -1], [2, 2, 1]] }, traction = ["t < 1 ? 0.001*sin(pi*t)^2 : 0", 0, 0] }]'
     return [
-        "grid.x=" + line(-3.0, 3.0, 7 * cells // 2, -1.0, 1.0, 1.0 / cells),
-        "grid.y=" + line(0.0, 3.0, 5 * cells // 2, 0.0, 1.5, 1.0 / cells),
+        "grid.x=" + refined_axis(-3.0, 3.0, 7 * cells // 2, (-1.0, 1.0), 1.0 / cells),
+        "grid.y=" + refined_axis(0.0, 3.0, 5 * cells // 2, (0.0, 1.5), 1.0 / cells),
         f"shell.plate.mesh.divisions=[{cells}, 1]",
         *([load] if case != "plate" else []),
         *(["fluid.viscosity=0.0001"] if case == "plate-inviscid" else []),

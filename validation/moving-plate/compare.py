@@ -22,7 +22,7 @@ import numpy as np
 
 here = Path(__file__).resolve().parent
 sys.path.insert(0, str(here.parent))
-from comparison import columns, run
+from comparison import columns, refined_axis, run
 
 settled = 0.8
 # Angle, place, and the noise of the two-dimensional prototype of this scheme with its first law of the offset, the baseline.
@@ -39,10 +39,9 @@ plates = (
 
 def settings(angle, place, arguments):
     h = arguments.spacing
-    line = "{{ from = {}, to = {}, cells = {}, refine = {{ from = {}, to = {}, spacing = {} }} }}"
     return [
-        "grid.x=" + line.format(-5.0, 4.0, round(4.0 / h) + 32, -2.8, 1.2, h),
-        "grid.y=" + line.format(-3.0, 3.0, round(1.6 / h) + 34, -0.8, 0.8, h),
+        "grid.x=" + refined_axis(-5.0, 4.0, round(4.0 / h) + 32, (-2.8, 1.2), h),
+        "grid.y=" + refined_axis(-3.0, 3.0, round(1.6 / h) + 34, (-0.8, 0.8), h),
         f"body.plate.mesh.divisions=[{round(1.0 / h)}, 1]",
         f"body.plate.rotate.angle={angle}",
         f"body.plate.translate=[{place[0]}, {place[1]}, 0]",
