@@ -68,7 +68,7 @@ void Grid::make_axis(int axis)
 {
   const int n = cells()[axis];
   const std::vector<double>& x = faces_[axis];
-  std::vector<double>& h = widths_[axis];
+  KernelVector<double>& h = widths_[axis];
   h.resize(n + 2);
   centres_[axis].resize(n + 2);
   for (int i = 0; i < n; ++i) {
@@ -83,12 +83,12 @@ void Grid::make_axis(int axis)
   centres_[axis].front() = x.front() - 0.5 * h.front();
   centres_[axis].back() = x.back() + 0.5 * h.back();
 
-  std::vector<double>& d = distances_[axis];
+  KernelVector<double>& d = distances_[axis];
   d.resize(n + 1);
   for (int i = 0; i <= n; ++i)
     d[i] = 0.5 * (h[i] + h[i + 1]);
-  const auto inverse = [](const std::vector<double>& values) {
-    std::vector<double> result(values.size());
+  const auto inverse = [](const KernelVector<double>& values) {
+    KernelVector<double> result(values.size());
     std::transform(values.begin(), values.end(), result.begin(), [](double v) { return 1.0 / v; });
     return result;
   };

@@ -11,6 +11,7 @@
 #include "grid/body_fitted.hpp"
 #include "grid/metrics.hpp"
 #include "parallel/decomposition.hpp"
+#include "parallel/memory.hpp"
 
 namespace luff::grid {
 
@@ -90,11 +91,12 @@ class Grid {
 
   Decomposition ranks_;
   std::array<std::vector<double>, 3> faces_;
-  std::array<std::vector<double>, 3> centres_;    // from index -1
-  std::array<std::vector<double>, 3> widths_;     // from index -1
-  std::array<std::vector<double>, 3> distances_;  // from index 0
-  std::array<std::vector<double>, 3> inverse_widths_;
-  std::array<std::vector<double>, 3> inverse_distances_;
+  std::array<std::vector<double>, 3> centres_;  // from index -1
+  // Of the metric that kernels read.
+  std::array<KernelVector<double>, 3> widths_;     // from index -1
+  std::array<KernelVector<double>, 3> distances_;  // from index 0
+  std::array<KernelVector<double>, 3> inverse_widths_;
+  std::array<KernelVector<double>, 3> inverse_distances_;
   double smallest_width_ = 0.0;
   Kind kind_ = Kind::Rectilinear;
   Uniform uniform_{};

@@ -4,12 +4,12 @@
 
 #include <atomic>
 #include <cstddef>
-#include <cstdlib>
 #include <memory>
-#include <new>
 #include <type_traits>
 
 #include "parallel/index_box.hpp"
+#include "parallel/kernel.hpp"
+#include "parallel/memory.hpp"
 
 namespace luff {
 
@@ -20,12 +20,12 @@ struct View {
   std::ptrdiff_t stride_j = 0;
   std::ptrdiff_t stride_k = 0;
 
-  T& operator()(int i, int j, int k) const { return origin[i + j * stride_j + k * stride_k]; }
-  T& operator()(const Index3& c) const { return (*this)(c[0], c[1], c[2]); }
-  T* row(int j, int k) const { return origin + j * stride_j + k * stride_k; }
+  LUFF_KERNEL T& operator()(int i, int j, int k) const { return origin[i + j * stride_j + k * stride_k]; }
+  LUFF_KERNEL T& operator()(const Index3& c) const { return (*this)(c[0], c[1], c[2]); }
+  LUFF_KERNEL T* row(int j, int k) const { return origin + j * stride_j + k * stride_k; }
   [[nodiscard]] std::ptrdiff_t stride(int axis) const { return axis == 0 ? 1 : axis == 1 ? stride_j : stride_k; }
 
-  operator View<const T>() const  // NOLINT: adding const is always right
+  LUFF_KERNEL operator View<const T>() const  // NOLINT: adding const is always right
       requires(!std::is_const_v<T>)
   {
     return {origin, stride_j, stride_k};
@@ -49,9 +49,7 @@ class Field {
     const std::ptrdiff_t row = (line + owned.extent(0) + halo + line - 1) / line * line;
     const std::ptrdiff_t plane = row * (owned.extent(1) + 2 * halo);
     size_ = plane * (owned.extent(2) + 2 * halo) + line;
-    T* data = static_cast<T*>(std::aligned_alloc(64, (size_ * sizeof(T) + page + 63) / 64 * 64));
-    if (data == nullptr)
-      throw std::bad_alloc();
+    T* data = static_cast<T*>(allocate_for_kernels(size_ * sizeof(T) + page));
     storage_.reset(data);
     start_ = data + stagger() / sizeof(T);
     view_ = {start_ + line - owned.lo[0] + (halo - owned.lo[1]) * row + (halo - owned.lo[2]) * plane, row, plane};
@@ -81,7 +79,7 @@ class Field {
 
  private:
   struct Free {
-    void operator()(T* p) const { std::free(p); }
+    void operator()(T* p) const { free_for_kernels(p); }
   };
   void copy_from(const Field& other) { std::copy_n(other.start_, size_, start_); }
 

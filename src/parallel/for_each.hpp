@@ -2,7 +2,7 @@
 // Loops over boxes of cells: threaded over rows, vectorised along them, the same bits on any number of threads.
 //
 // A kernel captures plain views by value and holds no containers, virtual calls, exceptions or allocation, so that it
-// compiles for a GPU unchanged.
+// runs on a GPU unchanged.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <omp.h>
 
 #include "parallel/index_box.hpp"
+#include "parallel/kernel.hpp"
 #include "parallel/launch.hpp"
 
 namespace luff {
@@ -49,7 +50,7 @@ void for_each_cell_in_order(const IndexBox& box, Function function)
         function(i, j, k);
 }
 
-/// kernel(i_lo, i_hi, j, k) for every row of the box, in any order.
+/// kernel(i_lo, i_hi, j, k) for every row of the box, in any order; on the processor always.
 template <class Kernel>
 void for_each_row(const IndexBox& box, Kernel kernel)
 {

@@ -1,28 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a kernel is to a compiler, and its launch on a GPU.  Fields are not yet allocated where a GPU reaches them: the
-// `cuda` preset compiles all kernels, so that they keep to the rules; nothing runs them there yet.
+// Launches of kernels on a GPU, in what nvcc compiles (preset `cuda`): fields lie in memory that processor and GPU
+// share, for_each_cell, sum_cells and max_cells run on the GPU, and the processor waits for them.  All else stays on
+// the processor.
 #pragma once
 
 #ifdef __CUDACC__
-#define LUFF_KERNEL __host__ __device__
-#else
-#define LUFF_KERNEL
-#endif
-/// A function that kernels call: a call that is not inlined keeps the loop over cells from being vectorised.
-#define LUFF_INLINE_KERNEL LUFF_KERNEL inline __attribute__((always_inline))
 
-
-#ifdef __CUDACC__
-
-#include <vector>
-
+#include "core/error.hpp"
 #include "parallel/index_box.hpp"
+#include "parallel/kernel.hpp"
+#include "parallel/memory.hpp"
 
 namespace luff {
 
 namespace detail {
 
 inline constexpr int threads_per_block = 128;
+
+/// Waits for the kernel just launched.  Throws RunError when it could not run.
+inline void finish_kernel()
+{
+  cudaError_t error = cudaGetLastError();
+  if (error == cudaSuccess)
+    error = cudaDeviceSynchronize();
+  if (error != cudaSuccess)
+    fail_run("a kernel did not run on the GPU: {}", cudaGetErrorString(error));
+}
 
 template <class Kernel>
 __global__ void run_cell(IndexBox box, Kernel kernel)
@@ -32,7 +35,7 @@ __global__ void run_cell(IndexBox box, Kernel kernel)
     kernel(i, box.lo[1] + static_cast<int>(blockIdx.y), box.lo[2] + static_cast<int>(blockIdx.z));
 }
 
-/// One thread to a row, rows in the order of the host's: the same sums.
+/// One thread to a row, from its first cell to its last; the processor's vector units add in another order.
 template <class Kernel, class Combine>
 __global__ void run_row(IndexBox box, Kernel kernel, Combine combine, double* result)
 {
@@ -55,15 +58,15 @@ struct Maximum {
 };
 
 template <class Kernel, class Combine>
-std::vector<double> launch_rows(const IndexBox& box, Kernel kernel, Combine combine)
+KernelVector<double> launch_rows(const IndexBox& box, Kernel kernel, Combine combine)
 {
   const int rows = box.extent(1) * box.extent(2);
-  std::vector<double> result(rows);
-  double* on_device = nullptr;
-  cudaMalloc(&on_device, rows * sizeof(double));
-  run_row<<<(rows + threads_per_block - 1) / threads_per_block, threads_per_block>>>(box, kernel, combine, on_device);
-  cudaMemcpy(result.data(), on_device, rows * sizeof(double), cudaMemcpyDeviceToHost);
-  cudaFree(on_device);
+  KernelVector<double> result(rows);
+  if (rows == 0)
+    return result;
+  const int blocks = (rows + threads_per_block - 1) / threads_per_block;
+  run_row<<<blocks, threads_per_block>>>(box, kernel, combine, result.data());
+  finish_kernel();
   return result;
 }
 
@@ -77,16 +80,17 @@ void launch_cells(const IndexBox& box, Kernel kernel)
   const dim3 blocks((box.extent(0) + detail::threads_per_block - 1) / detail::threads_per_block, box.extent(1),
                     box.extent(2));
   detail::run_cell<<<blocks, detail::threads_per_block>>>(box, kernel);
+  detail::finish_kernel();
 }
 
 template <class Kernel>
-std::vector<double> launch_row_sums(const IndexBox& box, Kernel kernel)
+KernelVector<double> launch_row_sums(const IndexBox& box, Kernel kernel)
 {
   return detail::launch_rows(box, kernel, detail::Sum{});
 }
 
 template <class Kernel>
-std::vector<double> launch_row_maxima(const IndexBox& box, Kernel kernel)
+KernelVector<double> launch_row_maxima(const IndexBox& box, Kernel kernel)
 {
   return detail::launch_rows(box, kernel, detail::Maximum{});
 }

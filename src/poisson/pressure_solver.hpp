@@ -25,6 +25,7 @@ struct FaceIndex {
   double open = 0.0;  ///< part of a blocked face that lets the flow through all the same, in [0, 1)
 
   friend auto operator<=>(const FaceIndex&, const FaceIndex&) = default;
+  friend bool operator==(const FaceIndex&, const FaceIndex&) = default;
 };
 
 /// When a projection is good enough.
