@@ -157,8 +157,8 @@ void describe(Schema& s, ImmersedOptions& immersed)
                 "surface is reconstructed along its normal."});
   s.key("edges", immersed.edges,
         {.doc = "What free edges of sheets cover. `whole`: the faces of the grid whose link of centres the sheet "
-                "crosses, so that its length is a whole number of cells. `partial`: of each face what lies behind the "
-                "sheet; errors fall evenly as grids are refined."});
+                "crosses, so that its length is a whole number of cells. `partial`: the sheet fades out over one cell "
+                "beyond its edge; sheets that move feel quieter forces, and errors fall evenly as grids are refined."});
   s.rule(immersed.scheme == ImmersedScheme::CutLink || immersed.edges == EdgeCover::Whole, "edges",
          "must be \"whole\" with `scheme = \"curvib\"`");
 }

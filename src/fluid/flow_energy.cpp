@@ -5,6 +5,7 @@
 
 #include "fluid/gradient_flux.hpp"
 #include "immersed/cell_metric.hpp"
+#include "immersed/cut_axis.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/vector_field.hpp"
 
@@ -39,7 +40,7 @@ double cut_dissipation(const Fields& f, const immersed::CutFace& face)
     if (links.looks_inside(hit, side))
       continue;
     const double theta = links.crossings()[hit].theta;
-    const double distance = length * std::max(side == 0 ? theta : 1.0 - theta, immersed::theta_min);
+    const double distance = length * std::max(side == 0 ? theta : 1.0 - theta, immersed::least_theta(face));
     const Vec3 u = at(f.u, side == 0 ? stepped(face.cell, face.axis, -1) : face.cell);
     sum += area / distance * (u - links.velocity(hit, now)).squaredNorm();
   }

@@ -11,6 +11,9 @@
 
 namespace luff::immersed {
 
+namespace {
+
+/// The first centre along an axis beyond x; the number of cells if there is none.
 int first_centre_above(const grid::Grid& grid, int axis, double x)
 {
   int from = 0;
@@ -24,8 +27,6 @@ int first_centre_above(const grid::Grid& grid, int axis, double x)
   }
   return from;
 }
-
-namespace {
 
 struct Range {
   int first = 0;
@@ -231,22 +232,6 @@ void sort(std::vector<Crossing>& crossings, const Index3& cells)
     const std::int64_t at_q = place(q);
     return at_p != at_q ? at_p < at_q : std::tie(p.theta, p.triangle) < std::tie(q.theta, q.triangle);
   });
-}
-
-std::vector<Crossing> crossings_of_line(const grid::Grid& grid, int axis, const Index3& cell,
-                                        std::span<const Vec3> positions, std::span<const std::array<int, 3>> triangles,
-                                        std::span<const int> among)
-{
-  std::vector<Crossing> found;
-  for (const int t : among) {
-    const auto& corner = triangles[t];
-    const Corners x{positions[corner[0]], positions[corner[1]], positions[corner[2]]};
-    const auto [low, high] = std::minmax({x[0][axis], x[1][axis], x[2][axis]});
-    LineSearch search(grid, axis, x, t, displaced_centres_within(grid, axis, low, high), {0, grid.cells()[axis]});
-    search.hit(cell, found);
-  }
-  sort(found, grid.cells());
-  return found;
 }
 
 std::vector<Crossing> find_crossings(const grid::Grid& grid, std::span<const Vec3> positions,

@@ -43,16 +43,6 @@ struct Crossing {
 [[nodiscard]] std::vector<Crossing> find_crossings(const grid::Grid& grid, std::span<const Vec3> positions,
                                                    std::span<const std::array<int, 3>> triangles);
 
-/// The hits of some triangles on one line of centres, that of a cell along an axis, wherever they are in the whole
-/// grid; on the link that wraps around those of face 0 only.  Uniform and rectilinear grids.
-[[nodiscard]] std::vector<Crossing> crossings_of_line(const grid::Grid& grid, int axis, const Index3& cell,
-                                                      std::span<const Vec3> positions,
-                                                      std::span<const std::array<int, 3>> triangles,
-                                                      std::span<const int> among);
-
-/// The first centre along an axis beyond x; the number of cells if there is none.  Uniform and rectilinear grids.
-[[nodiscard]] int first_centre_above(const grid::Grid& grid, int axis, double x);
-
 /// By axis, then k, j, i of the face, then theta; the triangle settles what is left.
 void sort(std::vector<Crossing>& crossings, const Index3& cells);
 

@@ -32,7 +32,7 @@ CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& c
     result.hit[side] = side == 1 ? face.first : face.last;
     const double theta = links.theta(result.hit[side], time);
     result.theta[side] = side == 1 ? theta : 1.0 - theta;
-    result.length[side] *= std::max(result.theta[side], theta_min);
+    result.length[side] *= std::max(result.theta[side], least_theta(face));
   }
   result.width = width_across(grid, axis, cut.cell);
   result.span = result.any_cut() ? 0.5 * (result.length[0] + result.length[1]) : result.width;

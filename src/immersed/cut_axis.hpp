@@ -6,12 +6,19 @@
 
 namespace luff::immersed {
 
+/// Smallest relative distance of a surface from a centre that friction sees.  Beyond a free edge nothing is there that
+/// the flow would have to slow down beside: a strip that holds cells the more the nearer it passes them takes too much.
+[[nodiscard]] inline double least_theta(const CutFace& face)
+{
+  return face.cover < 1.0 ? 0.5 : theta_min;
+}
+
 /// Side 0 below, side 1 above.
 struct CutAxis {
   std::array<int, 2> hit{open_link, open_link};  ///< the hit that the cell sees on each link
   std::array<double, 2> theta{1.0, 1.0};         ///< distance of the sheet over that of the other centre; 1: open
   std::array<double, 2> distance{};              ///< d of the whole link
-  std::array<double, 2> length{};                ///< h_k, to the neighbour or to the sheet, clipped by theta_min
+  std::array<double, 2> length{};                ///< h_k, to the neighbour or to the sheet, clipped by least_theta()
   std::array<double, 2> area_ratio{1.0, 1.0};    ///< |S| at the centre over |S| of the face
   double width = 0.0;                            ///< h of the cell
   double span = 0.0;                             ///< H_d

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace luff::immersed {
 
@@ -44,7 +43,6 @@ void CutLinks::freeze(const SheetMotion& predicted, double dt, double speed, con
   }
   bodies_ = predicted.bodies;
   find_crossings(predicted.position);
-  find_covers();
   interpolate_prediction(predicted);
   find_faces();
   find_cells();
@@ -107,6 +105,13 @@ int CutLinks::body_of(int triangle) const
 
 void CutLinks::find_crossings(std::span<const Vec3> positions)
 {
+  cover_.clear();
+  if (!free_edges_.empty()) {
+    const FadingSheets sheets(grid_, positions, triangles_, free_edges_);
+    crossings_ = immersed::find_crossings(grid_, sheets.positions(), sheets.triangles());
+    cover_ = sheets.settle(crossings_);
+    return;
+  }
   if (grid_.kind() != grid::Kind::Curvilinear) {
     crossings_ = immersed::find_crossings(grid_, positions, triangles_);
     return;
@@ -118,24 +123,6 @@ void CutLinks::find_crossings(std::span<const Vec3> positions)
   if (!tree_)
     tree_ = make_link_tree(grid_);
   crossings_ = tree_->find_crossings(positions, triangles_);
-}
-
-/// Adds what covers faces beside the lines of centres to the crossings, on links that no sheet crosses.
-void CutLinks::find_covers()
-{
-  covers_.clear();
-  if (free_edges_.empty())
-    return;
-  covers_ = edge_covers(grid_, positions_, triangles_, free_edges_);
-  const std::vector<Crossing> on_lines = crossings_;
-  const auto order = [](const Crossing& a, const Crossing& b) {
-    return std::tuple(a.axis, a.cell[2], a.cell[1], a.cell[0]) < std::tuple(b.axis, b.cell[2], b.cell[1], b.cell[0]);
-  };
-  for (const EdgeCover& cover : covers_)
-    if (!cover.on_line && !std::binary_search(on_lines.begin(), on_lines.end(), cover.hit, order))
-      crossings_.push_back(cover.hit);
-  if (crossings_.size() > on_lines.size())
-    sort(crossings_, grid_.cells());
 }
 
 void CutLinks::set_velocity(std::span<const Vec3> velocity)
@@ -189,11 +176,9 @@ void CutLinks::find_faces()
     mark_[hit.axis].view()(hit.cell) = static_cast<int>(faces_.size());
     faces_.push_back({.axis = hit.axis, .cell = hit.cell, .first = q, .last = q});
   }
-  for (const EdgeCover& cover : covers_) {
-    CutFace& face = faces_[mark_[cover.hit.axis].view()(cover.hit.cell)];
-    if (face.first == face.last)
-      face.cover = cover.part;
-  }
+  for (CutFace& face : faces_)
+    if (!cover_.empty() && face.first == face.last)
+      face.cover = cover_[face.first];
 }
 
 /// The cells inside bodies, and those of the fluid beside cut faces.
@@ -224,8 +209,7 @@ void CutLinks::find_cells()
 
 namespace {
 
-/// Covered part of a face from which on its link counts as crossed: half of it, where the edge of a sheet reaches the
-/// line.
+/// Covered part of a face from which on its link counts as crossed.
 constexpr double crossed_from = 0.5;
 
 }  // namespace

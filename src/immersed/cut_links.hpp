@@ -14,7 +14,7 @@
 #include "core/vec3.hpp"
 #include "grid/grid.hpp"
 #include "immersed/crossings.hpp"
-#include "immersed/edge_cover.hpp"
+#include "immersed/free_edges.hpp"
 #include "immersed/inside.hpp"
 #include "immersed/link_tree.hpp"
 #include "immersed/rigid_velocity.hpp"
@@ -107,7 +107,7 @@ class CutLinks {
 
   /// From now on all stages see the sheet where it is at the end of the step, as the nodes of the scheme curvib do.
   void hold_within_step() { held_ = true; }
-  /// From now on free edges cover parts of faces; without, a face is cut whole where its link is.
+  /// From now on free edges cover parts of faces (FadingSheets); without, a face is cut whole where its link is.
   void cover_in_part() { covers_in_part_ = true; }
 
   /// Finds crossings, cut faces and cells, and starts the flux offsets from the accepted fluxes:
@@ -207,7 +207,6 @@ class CutLinks {
 
  private:
   void find_crossings(std::span<const Vec3> positions);
-  void find_covers();
   void interpolate_prediction(const SheetMotion& predicted);
   [[nodiscard]] double drift(int hit) const;
   void find_faces();
@@ -252,8 +251,8 @@ class CutLinks {
   std::vector<RigidVelocity> predicted_body_acceleration_;
   std::vector<RigidVelocity> body_velocity_;
   std::vector<FreeEdge> free_edges_;
-  std::vector<EdgeCover> covers_;
-  std::vector<Crossing> crossings_;  ///< and what stands for parts of the sheet beside the lines of centres
+  std::vector<Crossing> crossings_;  ///< and those of the strips beyond free edges
+  std::vector<double> cover_;        ///< of the crossings; none where free edges cover whole faces
   std::vector<int> body_of_hit_;     ///< -1: not of a closed body
   std::vector<Vec3> places_;         ///< of the hits
   std::vector<Vec3> normals_;
