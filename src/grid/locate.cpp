@@ -82,12 +82,11 @@ std::optional<Location> locate_in_box(const Grid& grid, const Vec3& x)
   Index3 cell{};
   Location location;
   for (int a = 0; a < 3; ++a) {
-    const auto& faces = grid.faces(a);
+    const std::vector<double>& faces = grid.faces(a);
     const double rounding = tolerance * (faces.back() - faces.front());
     if (!(x[a] >= faces.front() - rounding && x[a] <= faces.back() + rounding))
       return std::nullopt;
-    const auto above = std::upper_bound(faces.begin(), faces.end(), x[a]) - faces.begin();
-    cell[a] = std::clamp(static_cast<int>(above) - 1, 0, grid.cells()[a] - 1);
+    cell[a] = cell_at(grid, a, x[a]);
     location.base[a] = x[a] < grid.centre(a, cell[a]) ? cell[a] - 1 : cell[a];
   }
   clamp_base(grid, location.base);
@@ -252,6 +251,13 @@ Bits bits_in_cell(const Grid& grid, const Index3& cell, const Corners& nodes, co
 }
 
 }  // namespace
+
+int cell_at(const Grid& grid, int axis, double x)
+{
+  const std::vector<double>& faces = grid.faces(axis);
+  const auto above = std::upper_bound(faces.begin(), faces.end(), x) - faces.begin();
+  return std::clamp(static_cast<int>(above) - 1, 0, grid.cells()[axis] - 1);
+}
 
 std::optional<Location> locate(const Grid& grid, const Vec3& x)
 {

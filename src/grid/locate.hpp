@@ -27,6 +27,9 @@ struct Location {
 /// Collective.
 [[nodiscard]] std::optional<Location> locate(const Grid& grid, const Vec3& x);
 
+/// Index along an axis of the cells that hold x, of the nearest ones where none do.  Uniform and rectilinear grids.
+[[nodiscard]] int cell_at(const Grid& grid, int axis, double x);
+
 /// Where a point stands: in the grid or outside, and on which sides, [axis][end], to 1e-9 of a cell.
 struct Standing {
   bool inside = false;

@@ -6,7 +6,8 @@
 #include <limits>
 #include <map>
 
-#include "surface/mesh.hpp"
+#include "grid/locate.hpp"
+#include "surface/topology.hpp"
 
 namespace luff::immersed {
 
@@ -31,16 +32,14 @@ double nearest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b)
 
 std::vector<FreeEdge> free_edges(std::span<const std::array<int, 3>> triangles)
 {
-  std::map<std::pair<int, int>, int> uses;
-  const auto between = [](int v, int w) { return std::pair(std::min(v, w), std::max(v, w)); };
-  for (const auto& corners : triangles)
-    for (int m = 0; m < 3; ++m)
-      ++uses[between(corners[m], corners[(m + 1) % 3])];
   std::vector<FreeEdge> edges;
-  for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
-    for (int m = 0; m < 3; ++m)
-      if (const int v = triangles[t][m], w = triangles[t][(m + 1) % 3]; uses[between(v, w)] == 1)
-        edges.push_back({v, w, t});
+  for (const auto& [key, sides] :
+       surface::edge_map({.vertices = {}, .triangles = {triangles.begin(), triangles.end()}}))
+    if (sides.size() == 1) {
+      const auto [from, to] = surface::edge_vertices(triangles[sides[0].triangle], sides[0].edge);
+      edges.push_back({from, to, sides[0].triangle});
+    }
+  std::ranges::sort(edges, {}, &FreeEdge::triangle);
   return edges;
 }
 
@@ -67,11 +66,8 @@ FadingSheets::FadingSheets(const grid::Grid& grid, std::span<const Vec3> positio
 Vec3 FadingSheets::cell_widths(const Vec3& x) const
 {
   Vec3 widths;
-  for (int a = 0; a < 3; ++a) {
-    const std::vector<double>& faces = grid_.faces(a);
-    const auto above = std::upper_bound(faces.begin(), faces.end(), x[a]) - faces.begin();
-    widths[a] = grid_.width(a, std::clamp(static_cast<int>(above) - 1, 0, grid_.cells()[a] - 1));
-  }
+  for (int a = 0; a < 3; ++a)
+    widths[a] = grid_.width(a, grid::cell_at(grid_, a, x[a]));
   return widths;
 }
 
