@@ -20,9 +20,10 @@ struct Difference {
 
 /// How far a difference of a past step may be stretched to meet a residual.
 ///
-/// The last differences of a step are as small as its tolerance; stretched too far, the round-off in them grows with them.
-/// Measured over fifty steps of a flag on one, two and four ranks: without a bound the forces drifted apart by 1e-5, with
-/// 100 by 2e-6, with 70 by 3e-10, with 50 by 4e-11; a mass ratio of 0.01 takes 10.7, 11.4, 11.6 and 11.8 iterations.
+/// The last differences of a step are as small as its tolerance; stretched too far, the round-off in them grows with
+/// them. Measured over fifty steps of a flag on one, two and four ranks: without a bound the forces drifted apart by
+/// 1e-5, with 100 by 2e-6, with 70 by 3e-10, with 50 by 4e-11; a mass ratio of 0.01 takes 10.7, 11.4, 11.6 and 11.8
+/// iterations.
 inline constexpr double largest_stretch = 70;
 
 /// d_{k+1} = d~_k + W a  with  a = argmin |V a + r_k|,  V and W the differences of r and d~, newest first,

@@ -70,6 +70,26 @@ immersed::SheetLoads FlowSolver::loads() const
   return immersed::sheet_loads(grid_, links_, load_fields(), sheet_vertices_);
 }
 
+PressureLoads FlowSolver::pressure_loads() const
+{
+  const auto timer = profile_.time(Phase::Loads);
+  return {.at_end = loads_of_pressure(p_load_.view()), .in_middle = loads_of_pressure(state_.p.view())};
+}
+
+immersed::SheetLoads FlowSolver::loads_of_pressure(const View<const double>& p) const
+{
+  immersed::LoadFields fields = load_fields();
+  fields.p = p;
+  if (!wall_nodes_) {
+    fields.viscosity = 0.0;
+    return immersed::sheet_loads(grid_, links_, fields, sheet_vertices_);
+  }
+  std::vector<immersed::SideTraction> tractions = immersed::node_tractions(grid_, links_, *wall_nodes_, fields);
+  for (immersed::SideTraction& traction : tractions)
+    traction.shear = {Vec3::Zero(), Vec3::Zero()};
+  return immersed::loads_of_tractions(links_, tractions);
+}
+
 std::vector<immersed::SideTraction> FlowSolver::tractions() const
 {
   const immersed::LoadFields fields = load_fields();

@@ -81,6 +81,11 @@ struct FlowState {
   int steps = 0;            ///< accepted so far
 };
 
+struct PressureLoads {
+  immersed::SheetLoads at_end;
+  immersed::SheetLoads in_middle;
+};
+
 class FlowSolver {
  public:
   FlowSolver(const grid::Grid& grid, FlowOptions options, Boundaries boundaries,
@@ -99,6 +104,9 @@ class FlowSolver {
 
   /// Forces on the vertices of the sheets by the trial flow, the pressure extrapolated to t^{n+1}.
   [[nodiscard]] immersed::SheetLoads loads() const;
+  /// What the pressure alone does to the vertices in the accepted step: at its end as in loads(), extrapolated, and in
+  /// its middle, where it is solved for.  Halos filled by fill_halos().  Collective.
+  [[nodiscard]] PressureLoads pressure_loads() const;
   /// Tractions per triangle and side by the trial (before accept) or accepted flow.
   [[nodiscard]] std::vector<immersed::SideTraction> tractions() const;
 
@@ -179,6 +187,7 @@ class FlowSolver {
   [[nodiscard]] double largest_speed() const;
   [[nodiscard]] double largest_flux_velocity() const;
   [[nodiscard]] immersed::LoadFields load_fields() const;
+  [[nodiscard]] immersed::SheetLoads loads_of_pressure(const View<const double>& p) const;
 
   const grid::Grid& grid_;
   FlowOptions options_;

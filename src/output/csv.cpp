@@ -41,9 +41,11 @@ CsvWriter::CsvWriter(const RunFolder& folder, const std::string& file_name, std:
                      const EarlierOutput* earlier)
     : path_(folder.file(file_name)), columns_(std::move(columns))
 {
+  const TableMark* mark = earlier != nullptr ? earlier->table(file_name) : nullptr;
+  if (mark != nullptr)
+    waiting_ = mark->waiting;
   if (!folder.writes())
     return;
-  const TableMark* mark = earlier != nullptr ? earlier->table(file_name) : nullptr;
   whole_ = mark == nullptr || take_over(*earlier, *mark);
   if (mark != nullptr && whole_) {
     file_.open(path_, std::ios::app);
@@ -78,7 +80,7 @@ TableMark CsvWriter::mark() const
 {
   std::error_code ignored;
   return {path_.filename().string(),
-          file_.is_open() ? static_cast<std::int64_t>(std::filesystem::file_size(path_, ignored)) : 0};
+          file_.is_open() ? static_cast<std::int64_t>(std::filesystem::file_size(path_, ignored)) : 0, waiting_};
 }
 
 bool CsvWriter::flush() const

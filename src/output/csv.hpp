@@ -30,6 +30,10 @@ class CsvWriter {
   /// One value per column; NaN leaves the place empty. Throws RunError if the disk refuses.
   void row(std::span<const double> values);
 
+  /// Numbers that a row which is not written yet is made of; a run that goes on finds them again, on all ranks.
+  void wait_with(std::vector<double> numbers) { waiting_ = std::move(numbers); }
+  [[nodiscard]] const std::vector<double>& waiting() const { return waiting_; }
+
   /// How far the table has come; meaningful on the rank that writes.
   [[nodiscard]] TableMark mark() const;
   /// Makes the rows so far last on disk, beyond a failure of power; false if it refuses.
@@ -47,6 +51,7 @@ class CsvWriter {
   std::filesystem::path path_;
   std::vector<Column> columns_;
   std::ofstream file_;  // open on the rank that writes
+  std::vector<double> waiting_;
   bool whole_ = true;
 };
 

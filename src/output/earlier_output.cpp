@@ -2,15 +2,18 @@
 #include "output/earlier_output.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace luff::output {
 
 namespace {
 
-constexpr const char *table_word = "table", *series_word = "series", *instant_word = "instant";
+constexpr const char *table_word = "table", *waiting_word = "waiting", *series_word = "series",
+                     *instant_word = "instant";
 
 std::string rest_of_line(std::istringstream& in)
 {
@@ -37,8 +40,11 @@ const SeriesMark* EarlierOutput::of(const std::string& series_name) const
 std::string text_of_marks(const EarlierOutput& output)
 {
   std::string text;
-  for (const TableMark& table : output.tables)
+  for (const TableMark& table : output.tables) {
     text += fmt::format("{} {} {}\n", table_word, table.bytes, table.file);
+    if (!table.waiting.empty())
+      text += fmt::format("{} {}\n", waiting_word, fmt::join(table.waiting, " "));
+  }
   for (const SeriesMark& series : output.series) {
     text += fmt::format("{} {}\n", series_word, series.name);
     for (const Instant& instant : series.instants)
@@ -60,6 +66,8 @@ EarlierOutput marks_of_text(const std::string& text)
       in >> table.bytes;
       table.file = rest_of_line(in);
       output.tables.push_back(table);
+    } else if (word == waiting_word && !output.tables.empty()) {
+      output.tables.back().waiting.assign(std::istream_iterator<double>(in), {});
     } else if (word == series_word) {
       output.series.push_back({rest_of_line(in), {}});
     } else if (word == instant_word && !output.series.empty()) {

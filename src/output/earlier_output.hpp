@@ -13,6 +13,7 @@ namespace luff::output {
 struct TableMark {
   std::string file;
   std::int64_t bytes = 0;
+  std::vector<double> waiting = {};  ///< CsvWriter::waiting()
 };
 
 /// One file of a series.

@@ -29,8 +29,8 @@ const char* unpack(const View<T>& field, const IndexBox& box, const char* in)
 
 }  // namespace
 
-/// The plane of cells at one index along j or k, with its halos: what is stale in them, the exchange along the next axis
-/// puts right.
+/// The plane of cells at one index along j or k, with its halos: what is stale in them, the exchange along the next
+/// axis puts right.
 IndexBox HaloExchange::layer(int axis, int index) const
 {
   IndexBox box = owned_.grown(1);

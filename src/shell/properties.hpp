@@ -18,7 +18,7 @@ struct Properties {
   Material material;
   int thickness_points = 0;  ///< Gauss points through the thickness, 1 to 5; 0: what the material recommends
   BendingKind bending = BendingKind::AveragedQuadratics;
-  bool lumped_mass = false;      ///< a third of each triangle's at each corner, instead of the consistent matrix
+  bool lumped_mass = false;  ///< a third of each triangle's at each corner, instead of the consistent matrix
   MembraneKind membrane = MembraneKind::ConstantStrain;
   double damping_mass = 0;       ///< f_m [1/T], >= 0
   double damping_stiffness = 0;  ///< f_k [T], >= 0

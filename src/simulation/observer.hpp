@@ -21,7 +21,10 @@ class Observer {
   virtual void start() {}
   /// An accepted step; halos of the flow are filled.
   virtual void record(const TimeStep& step) = 0;
-  /// The last instant t of a run, after its checkpoint: what is written here is no part of a series that goes on.
+  /// The run ends, well or not, after its checkpoint: rows that wait for one more step.  Each rank by itself.
+  virtual void write_waiting() {}
+  /// The last instant t of a run that ends well, after its checkpoint: what is written here is no part of a series that
+  /// goes on.
   virtual void finish(double /*t*/) {}
   virtual void report(nlohmann::ordered_json& /*summary*/) const {}
 

@@ -15,6 +15,7 @@
 #include "parallel/agreement.hpp"
 #include "simulation/cut_record.hpp"
 #include "simulation/flow_fields.hpp"
+#include "simulation/force_record.hpp"
 #include "simulation/rake_record.hpp"
 #include "simulation/section_record.hpp"
 #include "simulation/wall_surface.hpp"
@@ -145,8 +146,6 @@ void Recorder::open_tables(const output::EarlierOutput* earlier)
     walls_.emplace(folder_, "walls", earlier);
   for (const SheetRange& sheet : simulation_.structure().sheets()) {
     surfaces_.emplace_back(folder_, (sheet.deforms ? "shell-" : "body-") + sheet.name, earlier);
-    if (options_.fluid)
-      open_table_of_forces(sheet, earlier);
     if (sheet.deforms || options_.bodies[sheet.part].motion.type == config::MotionType::Fixed)
       continue;
     std::vector<output::Column> columns{{"t", "time"}};
@@ -160,6 +159,9 @@ void Recorder::open_tables(const output::EarlierOutput* earlier)
 
 void Recorder::open_observers(const Record* earlier)
 {
+  if (options_.fluid)
+    observers_.push_back(
+        std::make_unique<ForceRecord>(folder_, simulation_, earlier != nullptr ? &earlier->output : nullptr));
   if (options_.output.statistics) {
     auto statistics = std::make_unique<StatisticsRecord>(folder_, options_, simulation_, earlier);
     statistics_ = statistics.get();
@@ -173,18 +175,6 @@ void Recorder::open_observers(const Record* earlier)
   open(options_.output.sections, std::type_identity<SectionRecord>{});
   open(options_.output.slices, std::type_identity<CutRecord>{});
   open(options_.output.isosurfaces, std::type_identity<CutRecord>{});
-}
-
-void Recorder::open_table_of_forces(const SheetRange& sheet, const output::EarlierOutput* earlier)
-{
-  std::vector<output::Column> columns{{"t", "time"}};
-  for (const char* name : {"force", "force_minus", "force_plus"})
-    for (const output::Column& c : output::vector_columns(name, "force"))
-      columns.push_back(c);
-  if (!sheet.deforms)
-    for (const output::Column& c : output::vector_columns("moment", "moment"))
-      columns.push_back(c);
-  forces_.emplace_back(folder_, "forces-" + sheet.name + ".csv", columns, earlier);
 }
 
 void Recorder::open_probe(const config::ProbeOptions& options, const output::EarlierOutput* earlier)
@@ -245,7 +235,6 @@ bool Recorder::record(const StepRecord& record)
     const auto timer = simulation_.profile().time(Phase::Output);
     for (const auto& observer : observers_)
       observer->record(record.step);
-    write_forces(t, record.step.dt);
     write_motions(t, record.step.dt);
     write_probes(t, record.step.dt);
     write_snapshots(t, record.step.dt, /*last=*/false);
@@ -354,32 +343,6 @@ double Recorder::audit(const TimeStep& step)
   const double mismatch = audit_->record(step, *simulation_.surroundings().flow(), simulation_.structure());
   tally_.audit = audit_->numbers();
   return mismatch;
-}
-
-/// Moments of rigid sheets are about their centres.
-void Recorder::write_forces(double t, double dt)
-{
-  const Structure& structure = simulation_.structure();
-  const auto& sheets = structure.sheets();
-  const std::vector<Vec3> positions = structure.accepted_positions(t);
-  const immersed::SheetLoads& loads = simulation_.structure().loads();
-  for (std::size_t s = 0; s < forces_.size(); ++s) {
-    Vec3 minus = Vec3::Zero();
-    Vec3 plus = Vec3::Zero();
-    Vec3 moment = Vec3::Zero();
-    const Vec3 centre = sheets[s].deforms ? Vec3(Vec3::Zero()) : structure.body_motion(sheets[s].part, t, dt).centre;
-    for (int v = sheets[s].first_vertex; v < sheets[s].first_vertex + sheets[s].vertices; ++v) {
-      minus += loads.minus[v];
-      plus += loads.plus[v];
-      moment += (positions[v] - centre).cross(loads.force(v));
-    }
-    std::vector<double> row{t};
-    for (const Vec3& force : {Vec3(minus + plus), minus, plus})
-      append(row, force);
-    if (!sheets[s].deforms)
-      append(row, moment);
-    forces_[s].row(row);
-  }
 }
 
 void Recorder::write_motions(double t, double dt)
@@ -549,8 +512,6 @@ void Recorder::report_oscillations(nlohmann::ordered_json& summary)
 std::vector<const output::CsvWriter*> Recorder::tables() const
 {
   std::vector<const output::CsvWriter*> all{&*steps_};
-  for (const output::CsvWriter& table : forces_)
-    all.push_back(&table);
   for (const auto& [part, table] : motions_)
     all.push_back(&table);
   for (const Probe& probe : probes_)
@@ -643,6 +604,8 @@ void Recorder::finish(Ending ending, const std::string& reason)
   const std::string trouble = checkpoint_at_end(ending);
   if (!trouble.empty())
     log_->warn("{}", trouble);
+  for (const auto& observer : observers_)
+    observer->write_waiting();
   if (ending != Ending::Failed && clock.steps() > 0)
     write_end(clock.now());
   const char* const state = ending == Ending::Finished ? "finished" : ending == Ending::Stopped ? "stopped" : "failed";

@@ -69,8 +69,6 @@ class Recorder {
   void append_contact(std::vector<double>& row);
   void count_crossings();
   void report_contact(nlohmann::ordered_json& summary) const;
-  void open_table_of_forces(const SheetRange& sheet, const output::EarlierOutput* earlier);
-  void write_forces(double t, double dt);
   void write_motions(double t, double dt);
   void write_probes(double t, double dt);
   void write_snapshots(double t, double dt, bool last);
@@ -99,7 +97,6 @@ class Recorder {
   std::optional<output::FlowSeries> fields_;
   std::optional<output::SurfaceSeries> walls_;
   std::vector<output::SurfaceSeries> surfaces_;
-  std::vector<output::CsvWriter> forces_;
   std::vector<std::pair<int, output::CsvWriter>> motions_;  ///< of rigid sheets that move, by number
   std::optional<output::CsvWriter> steps_;
   std::vector<Probe> probes_;

@@ -95,15 +95,43 @@ SectionRecord::SectionRecord(const output::RunFolder& folder, const config::Sect
 
 void SectionRecord::record(const TimeStep& step)
 {
-  if (!due_.due(step.t_new))
+  const auto late = LateSums::of(table_.waiting());
+  const bool due = due_.due(step.t_new);
+  if (!late && !due)
     return;
+  const StepLoads loads = loads_of_step(simulation_);
+  const std::vector<double> pressure = sums(loads.pressure);
+  if (late)
+    write_rows(late->t(), late->interpolated(step, pressure));
+  table_.wait_with(due ? LateSums(step, sums(loads.at_end), sums(loads.pressure_at_end), pressure).numbers()
+                       : std::vector<double>{});
+}
+
+void SectionRecord::write_waiting()
+{
+  if (const auto late = LateSums::of(table_.waiting()))
+    write_rows(late->t(), late->extrapolated());
+}
+
+/// Forces on the strips, x y z of each.
+std::vector<double> SectionRecord::sums(const immersed::SheetLoads& loads) const
+{
   std::vector<Vec3> by_vertex;
   for (int v = sheet_.first_vertex; v < sheet_.first_vertex + sheet_.vertices; ++v)
-    by_vertex.push_back(simulation_.structure().loads().force(v));
-  const std::vector<Vec3> forces = strips_.forces(by_vertex);
+    by_vertex.push_back(loads.force(v));
+  std::vector<double> all;
+  for (const Vec3& force : strips_.forces(by_vertex))
+    all.insert(all.end(), force.data(), force.data() + 3);
+  return all;
+}
+
+void SectionRecord::write_rows(double t, const std::vector<double>& forces)
+{
   for (int n = 0; n < strips_.count(); ++n) {
-    const Vec3 f = forces[n] / strips_.width();
-    table_.row(std::array{step.t_new, strips_.begin(n), strips_.begin(n + 1), f[0], f[1], f[2]});
+    std::vector<double> row{t, strips_.begin(n), strips_.begin(n + 1)};
+    for (int d = 0; d < 3; ++d)
+      row.push_back(forces[3 * n + d] / strips_.width());
+    table_.row(row);
   }
 }
 

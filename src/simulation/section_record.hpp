@@ -5,6 +5,7 @@
 #include "config/options.hpp"
 #include "output/run_folder.hpp"
 #include "simulation/cadence.hpp"
+#include "simulation/late_loads.hpp"
 #include "simulation/observer.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/tally.hpp"
@@ -37,16 +38,20 @@ class Strips {
   std::vector<Share> shares_;
 };
 
-/// section-<name>.csv: a row for each strip and instant.
+/// section-<name>.csv: a row for each strip and instant, written a step later.
 class SectionRecord : public Observer {
  public:
   SectionRecord(const output::RunFolder& folder, const config::SectionOptions& options, Simulation& simulation,
                 const Record* earlier);
 
   void record(const TimeStep& step) override;
+  void write_waiting() override;
   [[nodiscard]] std::vector<const output::CsvWriter*> tables() const override { return {&table_}; }
 
  private:
+  [[nodiscard]] std::vector<double> sums(const immersed::SheetLoads& loads) const;
+  void write_rows(double t, const std::vector<double>& forces);
+
   Simulation& simulation_;
   const SheetRange& sheet_;
   Strips strips_;

@@ -196,14 +196,26 @@ std::vector<Vec3> Structure::wetted_rates(const Eigen::VectorXd& x, const Eigen:
   return wetted;
 }
 
-/// The fluid inside of a skin stands where the material is: what it does is put aside.
-void Structure::take_loads(const immersed::SheetLoads& loads)
+template <class Visit>
+void Structure::for_each_vertex_of_skins(Visit visit) const
 {
-  loads_ = loads;
   for (const SheetRange& sheet : sheets_)
     if (sheet.deforms && skin_of(sheet.part) != nullptr)
       for (int v = sheet.first_vertex; v < sheet.first_vertex + sheet.vertices; ++v)
-        inner_loads_[v] = std::exchange(loads_.minus[v], Vec3::Zero());
+        visit(v);
+}
+
+/// The fluid inside of a skin stands where the material is.
+immersed::SheetLoads Structure::felt(immersed::SheetLoads loads) const
+{
+  for_each_vertex_of_skins([&](int v) { loads.minus[v].setZero(); });
+  return loads;
+}
+
+void Structure::take_loads(const immersed::SheetLoads& loads)
+{
+  loads_ = felt(loads);
+  for_each_vertex_of_skins([&](int v) { inner_loads_[v] = loads.minus[v]; });
 }
 
 Eigen::VectorXd Structure::forces_on_shells(const Eigen::VectorXd& x) const

@@ -93,6 +93,8 @@ class Structure {
   [[nodiscard]] const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
   /// What the flow did to each vertex of all sheets in the last solve(). Skins feel their outside only.
   [[nodiscard]] const immersed::SheetLoads& loads() const { return loads_; }
+  /// Loads as the sheets feel them: skins not those of the fluid inside.
+  [[nodiscard]] immersed::SheetLoads felt(immersed::SheetLoads loads) const;
   /// What the fluid inside of skins did to their vertices, which nothing answers; zero at other vertices.
   [[nodiscard]] const std::vector<Vec3>& inner_loads() const { return inner_loads_; }
   /// Positions of all vertices at time t in the accepted state.
@@ -132,6 +134,8 @@ class Structure {
                  const surface::Marks& marks);
   /// The skin of a piece, or null.
   [[nodiscard]] const Skin* skin_of(std::size_t piece) const;
+  template <class Visit>
+  void for_each_vertex_of_skins(Visit visit) const;
   void take_loads(const immersed::SheetLoads& loads);
   /// Of the flow on the shells at x, x y z of each vertex.
   [[nodiscard]] Eigen::VectorXd forces_on_shells(const Eigen::VectorXd& x) const;

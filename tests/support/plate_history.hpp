@@ -19,10 +19,21 @@ struct PlateRun {
   bool edges_cover_in_part = false;
 };
 
-/// Force over time.
+/// Force coefficients over time.
 struct History {
   double dt = 0.0;
-  std::vector<Vec3> force;
+  std::vector<Vec3> force;               ///< at the ends of steps, with the pressure extrapolated: what sheets feel
+  std::vector<Vec3> without_pressure{};  ///< of these
+  std::vector<Vec3> pressure{};          ///< what the pressure does in the middle of the steps
+
+  /// With the pressure interpolated between steps, as runs report it.
+  [[nodiscard]] History as_reported() const
+  {
+    History reported{.dt = dt, .force = force};
+    for (std::size_t n = 0; n + 1 < force.size(); ++n)
+      reported.force[n] = without_pressure[n] + 0.5 * (pressure[n] + pressure[n + 1]);
+    return reported;
+  }
 
   /// The part after the start-up.
   [[nodiscard]] std::size_t settled() const { return static_cast<std::size_t>(std::lround(0.8 / dt)); }
@@ -54,6 +65,10 @@ inline History history_of(const PlateRun& run)
     flow->step(run.dt, plate.at(flow->t + run.dt, slab.depth));
     history.force.push_back(coefficients(total_force(flow->solver.loads()), slab.depth));
     flow->solver.accept();
+    flow->solver.fill_halos();
+    const fluid::PressureLoads pressure = flow->solver.pressure_loads();
+    history.without_pressure.push_back(history.force.back() - coefficients(total_force(pressure.at_end), slab.depth));
+    history.pressure.push_back(coefficients(total_force(pressure.in_middle), slab.depth));
   }
   return history;
 }

@@ -190,9 +190,7 @@ TEST(PressureSides, DriveADevelopedFlowThroughAChannel)
                 {.viscosity = viscosity});
   flow.solver.start(fluid::VectorFunction::uniform(Vec3::Zero()), 0.0);
   flow.advance(0.008, 800);
-  const auto exact = [&](const Vec3& x) -> Vec3 {
-    return K / (2.0 * viscosity) * x[1] * (1.0 - x[1]) * Vec3::UnitX();
-  };
+  const auto exact = [&](const Vec3& x) -> Vec3 { return K / (2.0 * viscosity) * x[1] * (1.0 - x[1]) * Vec3::UnitX(); };
   EXPECT_LE(velocity_error(flow, exact), 1e-12);
 }
 

@@ -63,6 +63,26 @@ TEST_F(Tables, AFullDiskEndsTheRun)
   EXPECT_THROW(CsvWriter(folder, "probe.csv", {{"t", "time"}}), RunError);
 }
 
+TEST_F(Tables, GoOnFromMarksWithWhatTheirNextRowWaitsFor)
+{
+  EarlierOutput earlier{.folder = folder.path(), .tables = {}, .series = {}};
+  {
+    CsvWriter csv(folder, "forces of flag.csv", {{"t", "time"}});
+    CsvWriter other(folder, "probe.csv", {{"t", "time"}});
+    csv.row(std::vector{1.0});
+    csv.wait_with({1.0 / 3, -2e-300, 0.0});
+    earlier.tables = {csv.mark(), other.mark()};
+    csv.row(std::vector{2.0});
+  }
+  const EarlierOutput read = marks_of_text(text_of_marks(earlier));
+  ASSERT_EQ(read.tables.size(), 2U);
+  EXPECT_TRUE(read.tables[1].waiting.empty());
+  earlier.tables = read.tables;
+  const CsvWriter csv(folder, "forces of flag.csv", {{"t", "time"}}, &earlier);
+  EXPECT_EQ(csv.waiting(), (std::vector{1.0 / 3, -2e-300, 0.0}));
+  EXPECT_EQ(text_of(folder.file("forces of flag.csv")), "t [time]\n1\n");
+}
+
 TEST_F(Tables, AnAtomicFileIsReplacedWholeAndLeavesNothingBesideIt)
 {
   write_atomically(folder.file("a.txt"), "first, and long");

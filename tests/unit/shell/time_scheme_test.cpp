@@ -20,7 +20,8 @@ State one(double x, double v, double a)
 State step(const TimeScheme& scheme, const State& before, double omega, double dt)
 {
   const auto out_of_balance = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-    return scheme.balanced(before, scheme.kinematics(before, x - before.x, dt)).a + omega * omega * scheme.balanced(before.x, x);
+    return scheme.balanced(before, scheme.kinematics(before, x - before.x, dt)).a +
+           omega * omega * scheme.balanced(before.x, x);
   };
   const double slope = scheme.acceleration_slope(dt) + omega * omega * scheme.position_slope();
   const Eigen::VectorXd x = before.x - out_of_balance(before.x) / slope;
