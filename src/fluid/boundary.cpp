@@ -274,10 +274,11 @@ void BoundaryConditions::add_wall_stress(const View3<const double>& u, const Vie
   for (const Side& side : sides_) {
     if (!side.gradient)
       continue;
+    const SideGradient::Prescribed u_b = side.gradient->prescribed(u);
     for_each_row(side.cells, [&](int from, int to, int j, int k) {
       for (int i = from; i < to; ++i) {
         const Index3 c{i, j, k};
-        const Vec3 change = viscosity / grid_.volume(i, j, k) * side.gradient->missing_flux(u, U, c);
+        const Vec3 change = viscosity / grid_.volume(i, j, k) * side.gradient->missing_flux(u, U, u_b, c);
         for (int d = 0; d < 3; ++d) {
           rate[d](c) += change[d];
           increment[d](c) += weight * change[d];
@@ -331,8 +332,9 @@ std::vector<SideStress> BoundaryConditions::stresses(const View3<const double>& 
     if (!side.gradient || (walls_only && boundary(side).kind != SideKind::Wall))
       continue;
     SideStress stress{.axis = side.axis, .end = side.end, .cells = side.cells, .shear = {}, .pressure = {}};
+    const SideGradient::Prescribed u_b = side.gradient->prescribed(u);
     for_each_side_cell(side, [&](const Index3& c, std::size_t n) {
-      const Mat3 G = side.gradient->at(u, U, c);
+      const Mat3 G = side.gradient->at(u, U, u_b, c);
       const Vec3 normal = -side.faces[n].normal;
       const Vec3 viscous = viscosity * (G + G.transpose()) * normal;
       stress.shear.push_back(viscous - viscous.dot(normal) * normal);
@@ -392,36 +394,32 @@ void BoundaryConditions::subtract_side_gradient(const View3<const double>& U_old
 void BoundaryConditions::subtract_side_gradient(const Side& side, const View3<double>& U) const
 {
   const int b = side.axis;
-  const Index3& n = grid_.cells();
-  IndexBox cells = side.cells;
-  for (int t = 0; t < 3; ++t)
-    if (t != b) {
-      cells.lo[t] -= grid_.ranks().at_boundary(t, 0) ? 0 : 1;
-      cells.hi[t] += grid_.ranks().at_boundary(t, 1) ? 0 : 1;
-    }
   // A cell between two sides holds the sum of both: each takes half.
-  const double share = n[b] == 1 ? 0.125 : 0.25;
+  const double share = grid_.cells()[b] == 1 ? 0.125 : 0.25;
   grid_.visit([&](const auto& m) {
     if constexpr (grid::is_curvilinear<std::remove_cvref_t<decltype(m)>>)
-      for_each_cell_in_order(cells, [&, g = side_gradient_[b].view()](int i, int j, int k) {
-        const Index3 c{i, j, k};
-        for (int t = 0; t < 3; ++t) {
-          if (t == b)
-            continue;
-          const double part = share * m.G[grid::symmetric(std::min(t, b), std::max(t, b))](c) / m.G[b](c) * g(c);
-          for (int end = 0; end < 2; ++end)
-            if (const Index3 face = stepped(c, t, end); !prescribed(t, face))
-              U[t](face) -= part;
+      for (int t = 0; t < 3; ++t)
+        for (int end = 0; end < 2 && t != b; ++end) {
+          const Index3 to_face = stepped({0, 0, 0}, t, end);
+          for_each_row(cells_with_free_face(side, t, end),
+                       [=, g = side_gradient_[b].view(), G_bb = m.G[b], U_t = U[t],
+                        G_tb = m.G[grid::symmetric(std::min(t, b), std::max(t, b))]](int from, int to, int j, int k) {
+                         for (int i = from; i < to; ++i)
+                           U_t(i + to_face[0], j + to_face[1], k + to_face[2]) -=
+                               share * G_tb(i, j, k) / G_bb(i, j, k) * g(i, j, k);
+                       });
         }
-      });
   });
 }
 
-/// Whether a face is none of this rank's cells, or lies on a side.
-bool BoundaryConditions::prescribed(int axis, const Index3& face) const
+/// The cells beside a side, also those of neighbours, whose low or high face along t is one of this rank's and lies in
+/// no side.
+IndexBox BoundaryConditions::cells_with_free_face(const Side& side, int t, int end) const
 {
-  return !grid_.owned().faces(axis).contains(face) ||
-         (!grid_.ranks().periodic(axis) && (face[axis] == 0 || face[axis] == grid_.cells()[axis]));
+  IndexBox cells = side.cells;
+  cells.lo[t] = grid_.owned().lo[t] + (grid_.ranks().at_boundary(t, 0) ? 1 : 0) - end;
+  cells.hi[t] = grid_.owned().hi[t] + (grid_.ranks().at_boundary(t, 1) ? 0 : 1) - end;
+  return cells;
 }
 
 }  // namespace luff::fluid

@@ -179,7 +179,7 @@ class BoundaryConditions {
   void balance_fluxes();
   [[nodiscard]] double diffusive_rate(int axis, const Index3& c) const;
   void subtract_side_gradient(const Side& side, const View3<double>& U) const;
-  [[nodiscard]] bool prescribed(int axis, const Index3& face) const;
+  [[nodiscard]] IndexBox cells_with_free_face(const Side& side, int t, int end) const;
   [[nodiscard]] bool enters_freely(const Side& side) const;
 
   const grid::Grid& grid_;

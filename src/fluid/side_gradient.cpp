@@ -116,26 +116,35 @@ void SideGradient::prepare_recovery(const Index3& c, Face& face) const
 }
 
 /// delta; along the side U_b = S_b . u_b, so that r_b = S_b . d_b^2 u_b + 2 (d_b S_b) . d_b u_b.
-Vec3 SideGradient::recovery_defect(const View3<const double>& u, const View3<const double>& U, const Index3& c,
+Vec3 SideGradient::recovery_defect(const View3<const double>& U, const Prescribed& u_b, const Index3& c,
                                    const std::array<Differences, 2>& along) const
 {
   const Face& f = face(c);
   Vec3 r = Vec3::Zero();
   if (has_second_cell())
-    r[0] = U[axis_](low_face(c, 0)) - 2.0 * U[axis_](low_face(c, 1)) + U[axis_](low_face(c, 2)) -
-           f.bend.dot(on_side(u, c));
+    r[0] = U[axis_](low_face(c, 0)) - 2.0 * U[axis_](low_face(c, 1)) + U[axis_](low_face(c, 2)) - f.bend.dot(u_b(c));
   for (int m = 0; m < 2; ++m)
     r[1 + m] = f.area[m].dot(along[m].second) + 2.0 * f.widening[m].dot(along[m].first);
   return f.recovery * r;
 }
 
-/// The prescribed velocity, about which the halo mirrors.
-Vec3 SideGradient::on_side(const View3<const double>& u, const Index3& c) const
+/// u_b, the mean of a cell beside the side and of the halo that mirrors it.
+SideGradient::Prescribed SideGradient::prescribed(const View3<const double>& u) const
 {
-  return 0.5 * (luff::at(u, c) + luff::at(u, inwards(c, -1)));
+  IndexBox box = cells_;
+  for (const int b : along_) {
+    --box.lo[b];
+    ++box.hi[b];
+  }
+  Prescribed u_b(box);
+  for_each_cell_in_order(box, [&](int i, int j, int k) {
+    const Index3 c{i, j, k};
+    u_b(c) = 0.5 * (luff::at(u, c) + luff::at(u, inwards(c, -1)));
+  });
+  return u_b;
 }
 
-std::array<SideGradient::Differences, 2> SideGradient::along_side(const View3<const double>& u, const Index3& c) const
+std::array<SideGradient::Differences, 2> SideGradient::along_side(const Prescribed& u_b, const Index3& c) const
 {
   std::array<Differences, 2> all;
   for (int m = 0; m < 2; ++m) {
@@ -146,31 +155,32 @@ std::array<SideGradient::Differences, 2> SideGradient::along_side(const View3<co
     for (int n = 0; n < 3; ++n) {
       if (d.weight[n] == 0.0 && d.second[n] == 0.0)
         continue;
-      const Vec3 u_b = on_side(u, stepped(c, along_[m], d.from + n));
-      all[m].first += d.weight[n] * u_b;
-      all[m].second += d.second[n] * u_b;
+      const Vec3& value = u_b(stepped(c, along_[m], d.from + n));
+      all[m].first += d.weight[n] * value;
+      all[m].second += d.second[n] * value;
     }
   }
   return all;
 }
 
 /// D_s u.
-Vec3 SideGradient::derivative_inwards(const View3<const double>& u, const View3<const double>& U, const Index3& c,
-                                      const std::array<Differences, 2>& along) const
+Vec3 SideGradient::derivative_inwards(const View3<const double>& u, const View3<const double>& U, const Prescribed& u_b,
+                                      const Index3& c, const std::array<Differences, 2>& along) const
 {
   const WallDerivative& normal = face(c).normal;
-  const Vec3 u_b = on_side(u, c) + recovery_defect(u, U, c, along);
-  Vec3 derivative = normal.near * (luff::at(u, c) - u_b);
+  const Vec3 on_side = u_b(c) + recovery_defect(U, u_b, c, along);
+  Vec3 derivative = normal.near * (luff::at(u, c) - on_side);
   if (normal.far != 0.0)
-    derivative += normal.far * (luff::at(u, inwards(c, 1)) - u_b);
+    derivative += normal.far * (luff::at(u, inwards(c, 1)) - on_side);
   return derivative;
 }
 
-Mat3 SideGradient::at(const View3<const double>& u, const View3<const double>& U, const Index3& c) const
+Mat3 SideGradient::at(const View3<const double>& u, const View3<const double>& U, const Prescribed& u_b,
+                      const Index3& c) const
 {
-  const std::array<Differences, 2> along = along_side(u, c);
+  const std::array<Differences, 2> along = along_side(u_b, c);
   Mat3 D;
-  D << derivative_inwards(u, U, c, along), along[0].first, along[1].first;
+  D << derivative_inwards(u, U, u_b, c, along), along[0].first, along[1].first;
   return D * face(c).reciprocal;
 }
 
@@ -180,17 +190,18 @@ double SideGradient::extrapolated(const View<const double>& p, const Index3& c) 
   return beyond == 0.0 ? p(c) : p(c) + beyond * (p(c) - p(inwards(c, 1)));
 }
 
-Vec3 SideGradient::missing_flux(const View3<const double>& u, const View3<const double>& U, const Index3& c) const
+Vec3 SideGradient::missing_flux(const View3<const double>& u, const View3<const double>& U, const Prescribed& u_b,
+                                const Index3& c) const
 {
-  const std::array<Differences, 2> along = along_side(u, c);
+  const std::array<Differences, 2> along = along_side(u_b, c);
   const Vec3& through = face(c).through;
-  return through[0] * derivative_inwards(u, U, c, along) + through[1] * along[0].first + through[2] * along[1].first -
-         mirrored_flux(u, c);
+  return through[0] * derivative_inwards(u, U, u_b, c, along) + through[1] * along[0].first +
+         through[2] * along[1].first - mirrored_flux(u, u_b, c);
 }
 
 /// A (u_N - u_P)/d; on curvilinear grids G_aa (u_N - u_P) + sum_b G_ab <d_b>, positive along increasing index, with the
 /// tensor of P, which the halo repeats.
-Vec3 SideGradient::mirrored_flux(const View3<const double>& u, const Index3& c) const
+Vec3 SideGradient::mirrored_flux(const View3<const double>& u, const Prescribed& u_b, const Index3& c) const
 {
   const Vec3 beyond = luff::at(u, inwards(c, -1)) - luff::at(u, c);
   return grid_->visit([&](const auto& m) -> Vec3 {
@@ -199,7 +210,7 @@ Vec3 SideGradient::mirrored_flux(const View3<const double>& u, const Index3& c) 
       const double outwards = end_ == 0 ? -1.0 : 1.0;
       for (const int b : along_) {
         const double G = m.G[grid::symmetric(std::min(axis_, b), std::max(axis_, b))](c);
-        flux += 0.5 * outwards * G * (on_side(u, stepped(c, b, 1)) - on_side(u, stepped(c, b, -1)));
+        flux += 0.5 * outwards * G * (u_b(stepped(c, b, 1)) - u_b(stepped(c, b, -1)));
       }
       return flux;
     } else {

@@ -41,9 +41,30 @@ class SideGradient {
   /// cells: the owned cells beside the side.
   SideGradient(const grid::Grid& grid, int axis, int end, const IndexBox& cells);
 
-  /// (grad u)_ij = du_i/dx_j at the face of a cell of `cells` [1/T].  u with valid halos, which mirror it about the
-  /// prescribed value, recovered from the fluxes U.
-  [[nodiscard]] Mat3 at(const View3<const double>& u, const View3<const double>& U, const Index3& c) const;
+  /// Prescribed velocities of `cells` and of the cells next to them along the side.
+  class Prescribed {
+   public:
+    explicit Prescribed(const IndexBox& box) : box_(box), values_(box.volume()) {}
+    [[nodiscard]] const Vec3& operator()(const Index3& c) const { return values_[place(c)]; }
+    [[nodiscard]] Vec3& operator()(const Index3& c) { return values_[place(c)]; }
+
+   private:
+    [[nodiscard]] std::ptrdiff_t place(const Index3& c) const
+    {
+      return (c[0] - box_.lo[0]) +
+             static_cast<std::ptrdiff_t>(box_.extent(0)) *
+                 ((c[1] - box_.lo[1]) + static_cast<std::ptrdiff_t>(box_.extent(1)) * (c[2] - box_.lo[2]));
+    }
+    IndexBox box_;
+    std::vector<Vec3> values_;
+  };
+
+  /// u with valid halos, which mirror it about the prescribed values.
+  [[nodiscard]] Prescribed prescribed(const View3<const double>& u) const;
+
+  /// (grad u)_ij = du_i/dx_j at the face of a cell of `cells` [1/T]; u recovered from the fluxes U, u_b of this u.
+  [[nodiscard]] Mat3 at(const View3<const double>& u, const View3<const double>& U, const Prescribed& u_b,
+                        const Index3& c) const;
 
   /// A value at the face, from the straight line through the cell beside it and the next one.
   [[nodiscard]] double extrapolated(const View<const double>& p, const Index3& c) const;
@@ -53,7 +74,8 @@ class SideGradient {
 
   /// S . grad u, S out of the domain, less what the stencils of the momentum equation take for it from the mirrored
   /// halo [L^2/T].
-  [[nodiscard]] Vec3 missing_flux(const View3<const double>& u, const View3<const double>& U, const Index3& c) const;
+  [[nodiscard]] Vec3 missing_flux(const View3<const double>& u, const View3<const double>& U, const Prescribed& u_b,
+                                  const Index3& c) const;
 
  private:
   /// A difference between three faces in a row along one index direction.
@@ -85,16 +107,16 @@ class SideGradient {
   [[nodiscard]] const Face& face(const Index3& c) const;
   [[nodiscard]] Difference difference(int axis, const Index3& c) const;
   [[nodiscard]] Face make_face(const Index3& c) const;
-  [[nodiscard]] Vec3 on_side(const View3<const double>& u, const Index3& c) const;
-  [[nodiscard]] std::array<Differences, 2> along_side(const View3<const double>& u, const Index3& c) const;
-  [[nodiscard]] Vec3 derivative_inwards(const View3<const double>& u, const View3<const double>& U, const Index3& c,
+  [[nodiscard]] std::array<Differences, 2> along_side(const Prescribed& u_b, const Index3& c) const;
+  [[nodiscard]] Vec3 derivative_inwards(const View3<const double>& u, const View3<const double>& U,
+                                        const Prescribed& u_b, const Index3& c,
                                         const std::array<Differences, 2>& along) const;
   [[nodiscard]] bool has_second_cell() const;
   [[nodiscard]] Index3 low_face(const Index3& c, int inwards) const;
   void prepare_recovery(const Index3& c, Face& face) const;
-  [[nodiscard]] Vec3 recovery_defect(const View3<const double>& u, const View3<const double>& U, const Index3& c,
+  [[nodiscard]] Vec3 recovery_defect(const View3<const double>& U, const Prescribed& u_b, const Index3& c,
                                      const std::array<Differences, 2>& along) const;
-  [[nodiscard]] Vec3 mirrored_flux(const View3<const double>& u, const Index3& c) const;
+  [[nodiscard]] Vec3 mirrored_flux(const View3<const double>& u, const Prescribed& u_b, const Index3& c) const;
 
   const grid::Grid* grid_;
   int axis_;

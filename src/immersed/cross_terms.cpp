@@ -80,9 +80,9 @@ void CrossTerms::update(const CutLinks& links, const View3<const double>& u, con
   for (const CutCell& cut : links.cells()) {
     std::array<Vec3, 3> change{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     for (int b = 0; b < 3; ++b) {
-      const CutAxis along = cut_axis(grid_, links, cut, b, time);
-      if (!along.any_cut())
+      if (cut.face[2 * b] == open_link && cut.face[2 * b + 1] == open_link)
         continue;
+      const CutAxis along = cut_axis(grid_, links, cut, b, time);
       const auto [low, high] = velocities_beside(links, cut, b, along, u, time);
       const Vec3 across = 0.5 * (at(u, stepped(cut.cell, b, 1)) - at(u, stepped(cut.cell, b, -1)));
       const Vec3 difference = along.difference(low, high) - across;

@@ -19,12 +19,36 @@ LinkForms::LinkForms(const CutLinks& links, const CutCell& cut, int axis)
     }
 }
 
+namespace {
+
+/// d of both links, h of the cell and the ratios of areas.
+CutAxis open_axis(const grid::Grid& grid, const Index3& cell, int axis)
+{
+  CutAxis result;
+  const grid::Curvilinear* const m = curvilinear_metric(grid);
+  if (m == nullptr) {
+    result.distance = {grid.distance(axis, cell[axis]), grid.distance(axis, cell[axis] + 1)};
+    result.width = grid.width(axis, cell[axis]);
+    return result;
+  }
+  const double at_centre = centre_area_vector(grid, axis, cell).norm();
+  for (int side = 0; side < 2; ++side) {
+    const Index3 face = stepped(cell, axis, side);
+    const double area = grid.area(axis, face[0], face[1], face[2]);
+    result.distance[side] = area / grid::in_series(m->G[axis](stepped(face, axis, -1)), m->G[axis](face));
+    result.area_ratio[side] = at_centre / area;
+  }
+  result.width = m->V(cell) / at_centre;
+  return result;
+}
+
+}  // namespace
+
 CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis, const StageTime& time,
                  const std::array<bool, 2>& as_cut)
 {
-  CutAxis result;
+  CutAxis result = open_axis(grid, cut.cell, axis);
   for (int side = 0; side < 2; ++side) {
-    result.distance[side] = distance_across(grid, axis, stepped(cut.cell, axis, side));
     result.length[side] = result.distance[side];
     if (!as_cut[side])
       continue;
@@ -34,13 +58,7 @@ CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& c
     result.theta[side] = side == 1 ? theta : 1.0 - theta;
     result.length[side] *= std::max(result.theta[side], least_theta(face));
   }
-  result.width = width_across(grid, axis, cut.cell);
   result.span = result.any_cut() ? 0.5 * (result.length[0] + result.length[1]) : result.width;
-  if (grid.kind() == grid::Kind::Curvilinear)
-    for (int side = 0; side < 2; ++side) {
-      const auto [i, j, k] = stepped(cut.cell, axis, side);
-      result.area_ratio[side] = centre_area_vector(grid, axis, cut.cell).norm() / grid.area(axis, i, j, k);
-    }
   return result;
 }
 

@@ -42,6 +42,7 @@ struct CutAxis {
 struct LinkForm {
   std::array<bool, 2> cut{};
   double weight = 1.0;
+  [[nodiscard]] bool any_cut() const { return cut[0] || cut[1]; }
 };
 
 /// The forms that the stencils of a cell along an axis are made of: a link of whose face the sheet covers the part c is

@@ -71,7 +71,7 @@ CutCellTerms momentum_terms(const grid::Grid& grid, const CutLinks& links, const
   for (int axis = 0; axis < 3; ++axis)
     for (const LinkForm& form : LinkForms(links, cut, axis)) {
       const CutAxis along_now = cut_axis(grid, links, cut, axis, now, form.cut);
-      const CutAxis along_then = cut_axis(grid, links, cut, axis, then, form.cut);
+      const CutAxis along_then = form.any_cut() ? cut_axis(grid, links, cut, axis, then, form.cut) : along_now;
       const std::array<Vec3, 2> u_beside = velocities_beside(links, cut, axis, along_now, u, now);
       for (int side = 0; side < 2; ++side) {
         if (form.cut[side]) {
@@ -94,6 +94,8 @@ Vec3 wall_source(const grid::Grid& grid, const CutLinks& links, const CutCell& c
   Vec3 source = Vec3::Zero();
   for (int axis = 0; axis < 3; ++axis)
     for (const LinkForm& form : LinkForms(links, cut, axis)) {
+      if (!form.any_cut())
+        continue;
       const CutAxis along = cut_axis(grid, links, cut, axis, then, form.cut);
       for (int side = 0; side < 2; ++side)
         if (form.cut[side])
