@@ -120,9 +120,15 @@ void CsvWriter::write_line(const std::string& line)
     fail_run("{}: cannot be written; is the disk full, or the folder gone?", path_.string());
 }
 
-std::vector<Column> vector_columns(const std::string& name, const std::string& unit)
+void add_vector(std::vector<Column>& columns, const std::string& name, const std::string& unit)
 {
-  return {{name + "_x", unit}, {name + "_y", unit}, {name + "_z", unit}};
+  for (const char* end : {"_x", "_y", "_z"})
+    columns.push_back({name + end, unit});
+}
+
+void add_vector(std::vector<double>& row, const Vec3& v)
+{
+  row.insert(row.end(), v.data(), v.data() + 3);
 }
 
 }  // namespace luff::output

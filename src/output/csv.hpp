@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/vec3.hpp"
 #include "output/earlier_output.hpp"
 #include "output/run_folder.hpp"
 
@@ -55,7 +56,9 @@ class CsvWriter {
   bool whole_ = true;
 };
 
-/// Three columns name_x, name_y, name_z of one unit.
-std::vector<Column> vector_columns(const std::string& name, const std::string& unit);
+/// Appends three columns name_x, name_y, name_z of one unit.
+void add_vector(std::vector<Column>& columns, const std::string& name, const std::string& unit);
+/// Appends their values to a row.
+void add_vector(std::vector<double>& row, const Vec3& v);
 
 }  // namespace luff::output

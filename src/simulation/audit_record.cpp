@@ -19,18 +19,12 @@ std::vector<output::Column> columns_of(const Structure& structure)
   std::vector<output::Column> columns{{"t", "time"}};
   for (const SheetRange& sheet : structure.sheets())
     for (const char* name : {"by_traction_", "by_momentum_"})
-      for (const output::Column& c : output::vector_columns(name + sheet.name, "force"))
-        columns.push_back(c);
+      output::add_vector(columns, name + sheet.name, "force");
   columns.push_back({"kinetic", "energy"});
   for (const char* name :
        {"growth", "dissipation", "power_of_sides", "power_of_surfaces", "power_of_body_force", "missing"})
     columns.push_back({name, "power"});
   return columns;
-}
-
-void append(std::vector<double>& row, const Vec3& v)
-{
-  row.insert(row.end(), v.data(), v.data() + 3);
 }
 
 nlohmann::ordered_json list_of(const Vec3& v)
@@ -56,8 +50,8 @@ double AuditRecord::record(const TimeStep& step, fluid::FlowSolver& flow, const 
   std::vector<double> row{0.5 * (step.t_old + step.t_new)};
   double worst = 0.0;
   for (std::size_t s = 0; s < forces.size(); ++s) {
-    append(row, forces[s].by_traction);
-    append(row, forces[s].by_momentum);
+    output::add_vector(row, forces[s].by_traction);
+    output::add_vector(row, forces[s].by_momentum);
     if (so_far[s].scale > 0.0)
       worst = std::max(worst, (forces[s].by_traction - forces[s].by_momentum).norm() / so_far[s].scale);
   }

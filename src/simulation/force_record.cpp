@@ -5,22 +5,13 @@ namespace luff::simulation {
 
 namespace {
 
-void append(std::vector<double>& list, const Vec3& v)
-{
-  list.insert(list.end(), v.data(), v.data() + 3);
-}
-
 std::vector<output::Column> columns_of(const SheetRange& sheet)
 {
   std::vector<output::Column> columns{{"t", "time"}};
-  const auto add = [&columns](const std::string& name, const std::string& unit) {
-    for (const output::Column& c : output::vector_columns(name, unit))
-      columns.push_back(c);
-  };
   for (const char* name : {"force", "force_minus", "force_plus"})
-    add(name, "force");
+    output::add_vector(columns, name, "force");
   if (!sheet.deforms)
-    add("moment", "moment");
+    output::add_vector(columns, "moment", "moment");
   return columns;
 }
 
@@ -76,7 +67,7 @@ std::vector<double> ForceRecord::sums(const SheetRange& sheet, const TimeStep& s
   }
   std::vector<double> all;
   for (const Vec3& force : {Vec3(minus + plus), minus, plus})
-    append(all, force);
+    output::add_vector(all, force);
   if (sheet.deforms)
     return all;
   Vec3 moment = Vec3::Zero();
@@ -84,7 +75,7 @@ std::vector<double> ForceRecord::sums(const SheetRange& sheet, const TimeStep& s
   const std::vector<Vec3> positions = structure.accepted_positions(step.t_new);
   for (int v = sheet.first_vertex; v < sheet.first_vertex + sheet.vertices; ++v)
     moment += (positions[v] - centre).cross(loads.force(v));
-  append(all, moment);
+  output::add_vector(all, moment);
   return all;
 }
 

@@ -11,9 +11,8 @@ namespace {
 std::vector<output::Column> columns()
 {
   std::vector<output::Column> all{{"t", "time"}, {"distance", "length"}};
-  for (const auto& [name, unit] : {std::pair("place", "length"), std::pair("velocity", "velocity")})
-    for (const output::Column& c : output::vector_columns(name, unit))
-      all.push_back(c);
+  output::add_vector(all, "place", "length");
+  output::add_vector(all, "velocity", "velocity");
   all.push_back({"pressure", "pressure"});
   return all;
 }

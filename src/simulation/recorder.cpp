@@ -30,11 +30,6 @@ double seconds_now()
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-void append(std::vector<double>& row, const Vec3& v)
-{
-  row.insert(row.end(), v.data(), v.data() + 3);
-}
-
 std::vector<output::Column> step_columns()
 {
   std::vector<output::Column> columns{{"step", ""},
@@ -69,7 +64,7 @@ output::NamedField field_of(const std::string& name, const std::vector<Vec3>& va
   std::vector<double> flat;
   flat.reserve(3 * count);
   for (int n = first; n < first + count; ++n)
-    append(flat, values[n]);
+    output::add_vector(flat, values[n]);
   return {name, 3, std::move(flat)};
 }
 
@@ -151,8 +146,7 @@ void Recorder::open_tables(const output::EarlierOutput* earlier)
     std::vector<output::Column> columns{{"t", "time"}};
     for (const auto& [name, unit] : {std::pair("centre", "length"), std::pair("rotation", "degrees"),
                                      std::pair("velocity", "velocity"), std::pair("spin", "rad/time")})
-      for (const output::Column& c : output::vector_columns(name, unit))
-        columns.push_back(c);
+      output::add_vector(columns, name, unit);
     motions_.emplace_back(sheet.part, output::CsvWriter(folder_, "motion-" + sheet.name + ".csv", columns, earlier));
   }
 }
@@ -183,10 +177,6 @@ void Recorder::open_probe(const config::ProbeOptions& options, const output::Ear
   probe.name = options.name;
   probe.point = options.point;
   std::vector<output::Column> columns{{"t", "time"}};
-  const auto add = [&columns](const std::string& name, const std::string& unit) {
-    for (const output::Column& c : output::vector_columns(name, unit))
-      columns.push_back(c);
-  };
   if (options.shell) {
     for (const SheetRange& sheet : simulation_.structure().sheets())
       if (sheet.name == *options.shell) {
@@ -197,12 +187,12 @@ void Recorder::open_probe(const config::ProbeOptions& options, const output::Ear
         probe.vertex = sheet.first_vertex + nearest;
         probe.point = mesh.vertices[nearest];
       }
-    add("displacement", "length");
-    add("velocity", "velocity");
+    output::add_vector(columns, "displacement", "length");
+    output::add_vector(columns, "velocity", "velocity");
   } else {
     probe.location = grid::locate(simulation_.surroundings().flow()->grid(), options.point);
     ensure(probe.location.has_value(), "probes in the flow were found in the grid when the case was checked");
-    add("velocity", "velocity");
+    output::add_vector(columns, "velocity", "velocity");
     columns.push_back({"pressure", "pressure"});
   }
   probe.csv = std::make_unique<output::CsvWriter>(folder_, "probe-" + probe.name + ".csv", columns, earlier);
@@ -352,7 +342,7 @@ void Recorder::write_motions(double t, double dt)
     std::vector<double> row{t};
     for (const Vec3& v :
          {motion.centre, Vec3(180.0 / std::numbers::pi * motion.rotation), motion.velocity, motion.spin})
-      append(row, v);
+      output::add_vector(row, v);
     table.row(row);
   }
 }
@@ -368,12 +358,12 @@ void Recorder::write_probes(double t, double dt)
     Vec3 value;
     if (probe.vertex >= 0) {
       value = positions[probe.vertex] - probe.point;
-      append(row, value);
-      append(row, velocities[probe.vertex]);
+      output::add_vector(row, value);
+      output::add_vector(row, velocities[probe.vertex]);
     } else {
       const PointSample here = sample(*simulation_.surroundings().flow(), {&*probe.location, 1}).front();
       value = here.velocity;
-      append(row, value);
+      output::add_vector(row, value);
       row.push_back(here.pressure);
     }
     probe.t.push_back(t);
@@ -421,7 +411,7 @@ output::SurfaceSnapshot Recorder::sheet_snapshot(const SheetRange& sheet, double
   std::vector<double> displacement;
   for (int v = 0; v < sheet.vertices; ++v) {
     snapshot.points.push_back(now[sheet.first_vertex + v]);
-    append(displacement, now[sheet.first_vertex + v] - reference.vertices[v]);
+    output::add_vector(displacement, now[sheet.first_vertex + v] - reference.vertices[v]);
   }
   snapshot.triangles = reference.triangles;
   snapshot.point_fields.push_back({"displacement", 3, std::move(displacement)});

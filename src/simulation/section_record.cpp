@@ -34,8 +34,7 @@ const SheetRange& sheet_named(const Structure& structure, const std::string& nam
 std::vector<output::Column> columns()
 {
   std::vector<output::Column> all{{"t", "time"}, {"from", "length"}, {"to", "length"}};
-  for (const output::Column& c : output::vector_columns("force_per_length", "force/length"))
-    all.push_back(c);
+  output::add_vector(all, "force_per_length", "force/length");
   return all;
 }
 

@@ -34,8 +34,7 @@ std::vector<StaticProbe> open_probes(const output::RunFolder& folder, const conf
                                      const output::EarlierOutput* earlier)
 {
   std::vector<output::Column> columns{{"load_factor", ""}};
-  for (const output::Column& c : output::vector_columns("displacement", "length"))
-    columns.push_back(c);
+  output::add_vector(columns, "displacement", "length");
   columns.push_back({"newton_iterations", ""});
   std::vector<StaticProbe> probes;
   for (const config::ProbeOptions& probe : options.output.probes)

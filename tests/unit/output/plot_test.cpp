@@ -33,8 +33,8 @@ class Plot : public testing::Test {
   }
   void write_tables()
   {
-    auto columns = vector_columns("displacement", "length");
-    columns.insert(columns.begin(), {"t", "time"});
+    std::vector<Column> columns{{"t", "time"}};
+    add_vector(columns, "displacement", "length");
     CsvWriter probe(folder, "probe-tip.csv", columns);
     CsvWriter forces(folder, "forces-flag.csv", {{"t", "time"}, {"force_x", "force"}, {"force_y", "force"}});
     CsvWriter steps(folder, "steps.csv",

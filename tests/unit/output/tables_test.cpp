@@ -23,8 +23,8 @@ class Tables : public testing::Test {
 
 TEST_F(Tables, HeadsNameColumnsAndUnits)
 {
-  auto columns = vector_columns("force", "force");
-  columns.insert(columns.begin(), {{"step", ""}, {"t", "time"}});
+  std::vector<Column> columns{{"step", ""}, {"t", "time"}};
+  add_vector(columns, "force", "force");
   const CsvWriter csv(folder, "forces-flag.csv", columns);
   EXPECT_EQ(text_of(folder.file("forces-flag.csv")), "step,t [time],force_x [force],force_y [force],force_z [force]\n");
 }
