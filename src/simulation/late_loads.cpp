@@ -6,7 +6,7 @@ namespace luff::simulation {
 StepLoads loads_of_step(Simulation& simulation)
 {
   const Structure& structure = simulation.structure();
-  const fluid::PressureLoads pressure = simulation.surroundings().flow()->pressure_loads();
+  const fluid::PressureLoads pressure = simulation.surroundings().pressure_loads();
   return {structure.loads(), structure.felt(pressure.at_end), structure.felt(pressure.in_middle)};
 }
 

@@ -90,6 +90,8 @@ class Structure {
   [[nodiscard]] const std::vector<SheetRange>& sheets() const { return sheets_; }
   [[nodiscard]] const Shells& shells() const { return shells_; }
   [[nodiscard]] int vertices() const { return vertices_; }
+  /// Those of shells, which come first.
+  [[nodiscard]] int shell_vertices() const { return first_rigid_vertex_; }
   [[nodiscard]] const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
   /// What the flow did to each vertex of all sheets in the last solve(). Skins feel their outside only.
   [[nodiscard]] const immersed::SheetLoads& loads() const { return loads_; }

@@ -43,8 +43,8 @@ void require_inside(const Reach& reach, const immersed::SheetMotion& sheets, con
 
 }  // namespace
 
-Flow::Flow(std::unique_ptr<grid::Grid> grid, std::unique_ptr<fluid::FlowSolver> solver)
-    : grid_(std::move(grid)), solver_(std::move(solver)), reach_(reach_of(*grid_))
+Flow::Flow(std::unique_ptr<grid::Grid> grid, std::unique_ptr<fluid::FlowSolver> solver, int shell_vertices)
+    : grid_(std::move(grid)), solver_(std::move(solver)), reach_(reach_of(*grid_)), shell_vertices_(shell_vertices)
 {
 }
 
@@ -52,16 +52,27 @@ void Flow::begin_step(const TimeStep& step, const immersed::SheetMotion& predict
 {
   require_inside(reach_, predicted, step);
   report_ = {};
-  solver_->begin_step(step, predicted);
+  if (grid_->kind() != grid::Kind::Curvilinear)
+    patches_ = {*grid_, predicted.position, predicted.triangles, shell_vertices_};
+  immersed::SheetMotion seen = predicted;
+  seen.velocity = patches_.seen(predicted.velocity);
+  seen.acceleration = patches_.seen(predicted.acceleration);
+  solver_->begin_step(step, seen);
   report_.momentum_iterations = solver_->newton().krylov_iterations;
 }
 
 immersed::SheetLoads Flow::loads(std::span<const Vec3> sheet_velocity)
 {
-  const poisson::Report projection = solver_->project(sheet_velocity);
+  const poisson::Report projection = solver_->project(patches_.seen(sheet_velocity));
   report_.pressure_iterations += projection.iterations;
   report_.divergence = projection.divergence;
-  return solver_->loads();
+  return patches_.spread(solver_->loads());
+}
+
+fluid::PressureLoads Flow::pressure_loads() const
+{
+  const fluid::PressureLoads loads = solver_->pressure_loads();
+  return {.at_end = patches_.spread(loads.at_end), .in_middle = patches_.spread(loads.in_middle)};
 }
 
 }  // namespace luff::simulation

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "fluid/flow_solver.hpp"
+#include "immersed/vertex_patches.hpp"
 #include "simulation/clock.hpp"
 #include "simulation/structure.hpp"
 
@@ -30,6 +31,8 @@ class Surroundings {
     const std::vector<Vec3> none(sheet_velocity.size(), Vec3::Zero());
     return {none, none};
   }
+  /// What the pressure alone does of that in the accepted step.  Halos of the flow are filled.
+  [[nodiscard]] virtual fluid::PressureLoads pressure_loads() const { return {}; }
   virtual void accept() {}
   [[nodiscard]] virtual FlowReport report() const { return {}; }
   /// Null without a flow.
@@ -44,14 +47,16 @@ struct Reach {
 
 class Flow : public Surroundings {
  public:
-  /// Throws RunError in begin_step() when a sheet leaves the box around the grid.  Collective.
-  Flow(std::unique_ptr<grid::Grid> grid, std::unique_ptr<fluid::FlowSolver> solver);
+  /// The first `shell_vertices` vertices are those of shells.  Throws RunError in begin_step() when a sheet leaves the
+  /// box around the grid.  Collective.
+  Flow(std::unique_ptr<grid::Grid> grid, std::unique_ptr<fluid::FlowSolver> solver, int shell_vertices);
   [[nodiscard]] StepRates step_rates() const override
   {
     return {solver_->convective_rate(), solver_->diffusive_rate(), fluid::step_limits(solver_->options().scheme)};
   }
   void begin_step(const TimeStep& step, const immersed::SheetMotion& predicted) override;
   [[nodiscard]] immersed::SheetLoads loads(std::span<const Vec3> sheet_velocity) override;
+  [[nodiscard]] fluid::PressureLoads pressure_loads() const override;
   void accept() override { solver_->accept(); }
   [[nodiscard]] FlowReport report() const override { return report_; }
   [[nodiscard]] fluid::FlowSolver* flow() override { return solver_.get(); }
@@ -60,6 +65,8 @@ class Flow : public Surroundings {
   std::unique_ptr<grid::Grid> grid_;
   std::unique_ptr<fluid::FlowSolver> solver_;
   Reach reach_;
+  int shell_vertices_;
+  immersed::VertexPatches patches_;  ///< of this step
   FlowReport report_;
 };
 
