@@ -155,7 +155,8 @@ void ConjugateGradients::fill_halo(Values& values)
     exchange.exchange(values.data(), Colours::Both);
 }
 
-/// e <- e + alpha p, r <- r - alpha q.  The first time the old e is not read.
+/// e <- e + alpha p, r <- r - alpha q; one loop for each, as GCC 12 leaves one with two sums scalar.  The first time
+/// the old e is not read.
 ConjugateGradients::Norms ConjugateGradients::step(float alpha, bool first)
 {
   Level& level = multigrid_.finest();
@@ -171,12 +172,17 @@ ConjugateGradients::Norms ConjugateGradients::step(float alpha, bool first)
       float* __restrict r = level.f.data() + start;
       float rr = 0.0f;
       float ee = 0.0f;
-#pragma omp simd reduction(+ : rr, ee)
+#pragma omp simd reduction(+ : ee)
       for (int n = 0; n < m; ++n) {
-        e[n] = first ? alpha * p[n] : e[n] + alpha * p[n];
-        r[n] -= alpha * q[n];
-        rr += r[n] * r[n];
-        ee += e[n] * e[n];
+        const float value = first ? alpha * p[n] : e[n] + alpha * p[n];
+        e[n] = value;
+        ee += value * value;
+      }
+#pragma omp simd reduction(+ : rr)
+      for (int n = 0; n < m; ++n) {
+        const float value = r[n] - alpha * q[n];
+        r[n] = value;
+        rr += value * value;
       }
       sums[0] += rr;
       sums[1] += ee;
