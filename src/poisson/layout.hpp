@@ -28,7 +28,7 @@ struct Layout {
 
   /// Rows are padded to whole vectors of this many values, and at least one place beyond.
   static constexpr int vector = 8;
-  [[nodiscard]] static constexpr int whole_vectors(int count) { return (count + vector - 1) / vector * vector; }
+  [[nodiscard]] static constexpr int whole_vectors(int count) { return (count + vector - 1) & -vector; }
 
   Layout() = default;
   explicit Layout(const IndexBox& box) : owned(box)

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include <omp.h>
+#include <map>
 
 namespace luff::poisson {
 
@@ -54,6 +53,8 @@ struct ProductRow {
                        ck_high * (own - u.k_high[n]));
   }
   [[nodiscard]] float inverse(int n) const { return inverse_diagonal[n]; }
+  /// Where loops end: beyond the row all coefficients are zero, and so is what they make.
+  [[nodiscard]] static int end(const Stencil& s) { return Layout::whole_vectors(s.count); }
 };
 
 /// Coefficients from memory.
@@ -92,6 +93,7 @@ struct StoredRow {
     const float diagonal = left[n] + right[n] + j_low[n] + j_high[n] + k_low[n] + k_high[n];
     return diagonal > 0.0f ? 1.0f / diagonal : 0.0f;
   }
+  [[nodiscard]] static int end(const Stencil& s) { return s.count; }
 };
 
 }  // namespace
@@ -102,83 +104,60 @@ Level::Level(const Box& box, const IndexBox& owned, const Neighbourhood* neighbo
       box_{box.lines, stored_.get()},
       distributed_(neighbourhood != nullptr),
       neighbourhood_(neighbourhood),
-      exchange_(layout_, box.lines, neighbourhood)
+      exchange_(layout_, box.lines, neighbourhood),
+      places_(Layout::whole_vectors(layout_.count(0)))
 {
   colours_clash_ = box.lines[0].odd_seam() || box.lines[1].odd_seam() || box.lines[2].odd_seam();
   residual_colours_ = colours_clash_ ? Colours::Both : Colours::Red;
-  make_tables();
-  prepare_threads();
+  if (stored_ == nullptr) {
+    make_tables();
+    make_row_coefficients();
+  }
   set_cuts(Cuts{});
 }
 
 void Level::make_tables()
 {
   const Line& x = box_.lines[0];
+  for (auto* table : {&left_, &right_, &width_})
+    for (Values& values : *table)
+      values.resize(places_);
   for (int i = 0; i < x.n; ++i) {
-    left_[i & 1].push_back(static_cast<float>(x.inverse_d[i]));
-    right_[i & 1].push_back(static_cast<float>(x.inverse_d[i + 1]));
-    ends_[i & 1].push_back(static_cast<float>(x.inverse_d[i]) + static_cast<float>(x.inverse_d[i + 1]));
-    width_[i & 1].push_back(static_cast<float>(x.h[i]));
-  }
-  for (int a = 0; a < 2; ++a) {
-    const Line& line = box_.lines[a + 1];
-    widths_[a].assign(line.h.begin(), line.h.end());
-    inverse_distances_[a].assign(line.inverse_d.begin(), line.inverse_d.end());
+    left_[i & 1][i >> 1] = static_cast<float>(x.inverse_d[i]);
+    right_[i & 1][i >> 1] = static_cast<float>(x.inverse_d[i + 1]);
+    width_[i & 1][i >> 1] = static_cast<float>(x.h[i]);
   }
 }
 
-inline Level::Faces Level::faces(int j, int k) const
+/// Rows with the same widths across them share their inverse diagonals.
+void Level::make_row_coefficients()
 {
-  const float hj = widths_[0][j];
-  const float hk = widths_[1][k];
-  return {hj * hk, hk * inverse_distances_[0][j], hk * inverse_distances_[0][j + 1], hj * inverse_distances_[1][k],
-          hj * inverse_distances_[1][k + 1]};
-}
-
-namespace {
-
-/// 1 / diagonal along the rows of a plane, kept from row to row while the widths across them stay the same.
-class InverseDiagonal {
- public:
-  using Tables = std::array<std::vector<float>, 2>;
-  InverseDiagonal(const Tables& ends, const Tables& width, Tables& values)
-      : ends_(ends), width_(width), values_{values[0].data(), values[1].data()}
-  {
-  }
-
-  template <class Faces>
-  const float* of(int parity, const Faces& c)
-  {
-    const float across = c.j_low + c.j_high + c.k_low + c.k_high;
-    if (c.row != row_[parity] || across != across_[parity]) {
-      row_[parity] = c.row;
-      across_[parity] = across;
-      float* __restrict out = values_[parity];
-      const float* __restrict ends = ends_[parity].data();
-      const float* __restrict width = width_[parity].data();
-      const int count = static_cast<int>(ends_[parity].size());
-#pragma omp simd
-      for (int n = 0; n < count; ++n)
-        out[n] = 1.0f / (c.row * ends[n] + across * width[n]);
+  const auto float_of = [](double value) { return static_cast<float>(value); };
+  const IndexBox& owned = layout_.owned;
+  const Line& y = box_.lines[1];
+  const Line& z = box_.lines[2];
+  std::map<std::pair<float, float>, std::ptrdiff_t> known;
+  for (int k = owned.lo[2]; k < owned.hi[2]; ++k)
+    for (int j = owned.lo[1]; j < owned.hi[1]; ++j) {
+      const float hj = float_of(y.h[j]);
+      const float hk = float_of(z.h[k]);
+      RowCoefficients c{hj * hk,
+                        hk * float_of(y.inverse_d[j]),
+                        hk * float_of(y.inverse_d[j + 1]),
+                        hj * float_of(z.inverse_d[k]),
+                        hj * float_of(z.inverse_d[k + 1]),
+                        0};
+      const float across = c.j_low + c.j_high + c.k_low + c.k_high;
+      const auto next = 2 * places_ * static_cast<std::ptrdiff_t>(known.size());
+      c.inverse = known.try_emplace({c.row, across}, next).first->second;
+      row_coefficients_.push_back(c);
     }
-    return values_[parity];
-  }
-
- private:
-  const Tables& ends_;
-  const Tables& width_;
-  std::array<float*, 2> values_;
-  std::array<float, 2> row_{-1.0f, -1.0f};
-  std::array<float, 2> across_{-1.0f, -1.0f};
-};
-
-}  // namespace
-
-void Level::prepare_threads()
-{
-  const auto threads = static_cast<std::size_t>(omp_get_max_threads());
-  if (inverse_rows_.size() < threads)
-    inverse_rows_.resize(threads, ends_);
+  inverse_diagonals_.resize(2 * places_ * static_cast<std::ptrdiff_t>(known.size()));
+  for (const auto& [widths, start] : known)
+    for (int parity = 0; parity < 2; ++parity)
+      for (int n = 0; n < layout_.count(parity); ++n)
+        inverse_diagonals_[start + parity * places_ + n] =
+            1.0f / (widths.first * (left_[parity][n] + right_[parity][n]) + widths.second * width_[parity][n]);
 }
 
 /// work(stencil, row) for the rows of a colour on plane k, as functions of `values`.
@@ -192,12 +171,13 @@ void Level::for_rows(int k, int colour, const float* values, Work work) const
     }
     return;
   }
-  InverseDiagonal diagonal(ends_, width_, inverse_rows_[omp_get_thread_num()]);
-  for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j) {
+  const RowCoefficients* c =
+      row_coefficients_.data() + static_cast<std::ptrdiff_t>(k - layout_.owned.lo[2]) * layout_.owned.extent(1);
+  for (int j = layout_.owned.lo[1]; j < layout_.owned.hi[1]; ++j, ++c) {
     const Stencil s(layout_, j, k, colour);
-    const Faces c = faces(j, k);
     work(s, ProductRow{Neighbours(values, s), left_[s.parity].data(), right_[s.parity].data(), width_[s.parity].data(),
-                       diagonal.of(s.parity, c), c.row, c.j_low, c.j_high, c.k_low, c.k_high});
+                       inverse_diagonals_.data() + c->inverse + s.parity * places_, c->row, c->j_low, c->j_high,
+                       c->k_low, c->k_high});
   }
 }
 
@@ -206,8 +186,9 @@ void Level::start_plane(int k, int colour, Values& x, const Values& b)
   for_rows(k, colour, x.data(), [&x, &b](const Stencil& s, const auto& row) {
     const float* __restrict rhs = b.data() + s.own;
     float* __restrict out = x.data() + s.own;
+    const int end = row.end(s);
 #pragma omp simd
-    for (int n = 0; n < s.count; ++n)
+    for (int n = 0; n < end; ++n)
       out[n] = rhs[n] * row.inverse(n);
   });
   for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row) {
@@ -221,8 +202,9 @@ void Level::relax_plane(int k, int colour, Values& x, const Values& b)
   for_rows(k, colour, x.data(), [&x, &b](const Stencil& s, const auto& row) {
     const float* __restrict rhs = b.data() + s.own;
     float* __restrict out = x.data() + s.own;
+    const int end = row.end(s);
 #pragma omp simd
-    for (int n = 0; n < s.count; ++n)
+    for (int n = 0; n < end; ++n)
       out[n] = (rhs[n] + row.neighbours(n)) * row.inverse(n);
   });
   for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row)
@@ -236,8 +218,9 @@ void Level::residual_plane(int k, int colour)
     const float* __restrict rhs = f.data() + s.own;
     const float* __restrict own = u.data() + s.own;
     float* __restrict out = r.data() + s.own;
+    const int end = row.end(s);
 #pragma omp simd
-    for (int n = 0; n < s.count; ++n)
+    for (int n = 0; n < end; ++n)
       out[n] = rhs[n] - row.image(n, own[n]);
   });
   for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row)
@@ -253,8 +236,9 @@ double Level::apply_plane(int k, const float* p, float* q) const
       const float* __restrict own = p + s.own;
       float* __restrict out = q + s.own;
       float part = 0.0f;
+      const int end = row.end(s);
 #pragma omp simd reduction(+ : part)
-      for (int n = 0; n < s.count; ++n) {
+      for (int n = 0; n < end; ++n) {
         const float value = row.image(n, own[n]);
         out[n] = value;
         part += value * own[n];

@@ -48,8 +48,6 @@ class Level {
   [[nodiscard]] std::ptrdiff_t place(const Cuts& cuts, Unknown x) const;
   [[nodiscard]] bool owns(const Cuts& cuts, Unknown x) const;
 
-  /// Makes room for the threads that now work on planes.
-  void prepare_threads();
   /// x = b / diagonal on cells of a colour of plane k: a half sweep for A x = b from x = 0.
   void start_plane(int k, int colour, Values& x, const Values& b);
   void relax_plane(int k, int colour, Values& x, const Values& b);
@@ -85,13 +83,15 @@ class Level {
     float grounded;  // coefficient to p = 0 beyond a Dirichlet side, where that is no halo cell
     float inverse;   // 1 / diagonal, 0 for an isolated cell
   };
-  struct Faces {
+  /// Coefficients of a row (j, k), and where the inverse diagonals of its even cells are; the odd ones' follow.
+  struct RowCoefficients {
     float row, j_low, j_high, k_low, k_high;
+    std::ptrdiff_t inverse;
   };
   void make_tables();
+  void make_row_coefficients();
   template <class Work>
   void for_rows(int k, int colour, const float* values, Work work) const;
-  [[nodiscard]] Faces faces(int j, int k) const;
   void add_cell_row(const Cuts& cuts, const CutCell& cut);
   void add_extra_rows(const Cuts& cuts);
   void add_extra_row(const Cuts& cuts, int e);
@@ -113,9 +113,10 @@ class Level {
   RowExchange exchange_;
   bool colours_clash_;
   Colours residual_colours_;
-  std::array<std::vector<float>, 2> left_, right_, ends_, width_;        // along rows, per parity of i
-  std::array<std::vector<float>, 2> widths_, inverse_distances_;         // along j and k
-  mutable std::vector<std::array<std::vector<float>, 2>> inverse_rows_;  // scratch of each thread
+  int places_;                                  // of cells of one parity along rows, whole vectors
+  std::array<Values, 2> left_, right_, width_;  // along rows, per parity of i; 0 beyond
+  std::vector<RowCoefficients> row_coefficients_;
+  Values inverse_diagonals_;  // 0 beyond the ends of rows; computing them anew for every row costs 6 to 10 %
   int extras_ = 0;
   std::vector<int> owned_extras_;
   std::vector<Row> rows_;

@@ -570,7 +570,6 @@ void Multigrid::cycle(std::size_t l, const PlaneWork& after)
     solve_coarsest(after);
     return;
   }
-  levels_[l]->prepare_threads();
   smooth_from_zero(l);
   transfers_[l]->restrict_residual();
   cycle(l + 1, [](int) {});
