@@ -11,19 +11,19 @@ constexpr int pad = 16;
 
 }  // namespace
 
-/// Sums along one row, split by parity of i: the even cells from `pad` on, the odd ones from `pad` + split_ on, so that
-/// the places next to either end hold zeros.
+/// Sums along one row, split by parity of i: the even cells from `pad` on, the odd ones from `pad` + split_ on.  Loops
+/// run over whole vectors, into the padding and into what later ones overwrite.
 struct Transfer::Scratch {
   Scratch(std::ptrdiff_t split, int coarse_cells)
-      : all(2 * split + pad, 0.0f),
-        own(2 * split + pad, 0.0f),
-        coarse(coarse_cells + 2 * pad, 0.0f),
-        low(coarse_cells + 2 * pad, 0.0f),
-        high(coarse_cells + 2 * pad, 0.0f)
+      : all(2 * split + pad),
+        own(2 * split + pad),
+        coarse(coarse_cells + 3 * pad),
+        low(coarse_cells + 3 * pad),
+        high(coarse_cells + 3 * pad)
   {
   }
-  std::vector<float> all, own;           // fine residuals with the weights along j and k, and plainly
-  std::vector<float> coarse, low, high;  // what a coarse cell, its lower and its upper neighbour get
+  Values all, own;           // fine residuals with the weights along j and k, and plainly
+  Values coarse, low, high;  // what a coarse cell, its lower and its upper neighbour get
 };
 
 Transfer::Transfer(Level& fine, Level& coarse, std::array<Merge, 3> merges)
@@ -43,10 +43,10 @@ void Transfer::make_tables()
   const Merge& x = merges_[0];
   const int n = fine_.box().lines[0].n;
   const int N = coarse_.box().lines[0].n;
-  split_ = (n + 1) / 2 + 2 * pad;
-  natural_stride_ = N + 2 * pad;
-  natural_.assign(natural_stride_ * (home_.extent(1) + 2) * (home_.extent(2) + 2) + 2 * pad, 0.0f);
-  weight_.assign(2 * split_ + pad, 0.0f);
+  split_ = Layout::whole_vectors((n + 1) / 2) + 2 * pad;
+  natural_stride_ = Layout::whole_vectors(N) + 2 * pad;
+  natural_.resize(natural_stride_ * (home_.extent(1) + 2) * (home_.extent(2) + 2) + 2 * pad);
+  weight_.resize(2 * split_ + pad);
   for (int i = 0; i < n; ++i)
     weight_[pad + split_place(i)] = static_cast<float>(x.weight[i]);
   for (int I = 0; I < N; ++I) {
@@ -55,6 +55,29 @@ void Transfer::make_tables()
       runs_.push_back({.fine = x.first[I], .coarse = I, .count = 0, .pairs = pair});
     ++runs_.back().count;
   }
+  for (int a = 1; a < 3; ++a)
+    children_[a] = children_along(a);
+}
+
+std::vector<Transfer::Children> Transfer::children_along(int axis) const
+{
+  const Merge& merge = merges_[axis];
+  const auto beyond = [&](int C, int side) {
+    const int towards = side == 0 ? 1 : -1;
+    const int last_inside = side == 0 ? merge.first[C] : merge.first[C + 1] - 1;
+    const int i = fine_.box().lines[axis].neighbour(last_inside, side);
+    return i >= 0 && merge.towards[i] == towards ? static_cast<float>(merge.weight[i]) : 0.0f;
+  };
+  std::vector<Children> children;
+  for (int C = home_.lo[axis]; C < home_.hi[axis]; ++C) {
+    const int first = merge.first[C];
+    const int count = merge.first[C + 1] - first;
+    children.push_back({first,
+                        count,
+                        {static_cast<float>(merge.weight[first]), static_cast<float>(merge.weight[first + count - 1])},
+                        {beyond(C, 0), beyond(C, 1)}});
+  }
+  return children;
 }
 
 void Transfer::set_cuts(const Cuts& fine_cuts, const Cuts& coarse_cuts)
@@ -96,46 +119,42 @@ void Transfer::set_cuts(const Cuts& fine_cuts, const Cuts& coarse_cuts)
 /// Rows of a coarse row's own children, and the nearest rows of its neighbours that interpolate from it too.
 void Transfer::gather_rows(int J, int K, int colour, std::array<Rows, 2>& rows) const
 {
-  const Merge& y = merges_[1];
-  const Merge& z = merges_[2];
+  const Children& y = children_[1][J - home_.lo[1]];
+  const Children& z = children_[2][K - home_.lo[2]];
   const Layout& layout = fine_.layout();
-  const auto add = [&](int j, int k, double weight, bool own) {
+  const auto add = [&](int j, int k, float weight, bool own) {
     Rows& r = rows[Layout::parity(j, k, colour)];
     const int n = own ? r.own++ : r.beyond++;
     r.row[n] = fine_.r.data() + layout.start(j, k, colour);
-    r.weight[n] = static_cast<float>(weight);
+    r.weight[n] = weight;
   };
-  const auto add_beyond = [&](int axis, const Merge& merge, int C, int side, auto visit) {
-    const int towards = side == 0 ? 1 : -1;
-    const int i = side == 0 ? merge.first[C] - 1 : merge.first[C + 1];
-    const int i_global = fine_.box().lines[axis].neighbour(i + towards, side);
-    if (i_global >= 0 && merge.towards[i_global] == towards && merge.weight[i_global] > 0.0)
-      visit(i, merge.weight[i_global]);
-  };
-  for (int k = z.first[K]; k < z.first[K + 1]; ++k)
-    for (int j = y.first[J]; j < y.first[J + 1]; ++j)
-      add(j, k, 1.0 - y.weight[j] - z.weight[k], true);
+  for (int b = 0; b < z.count; ++b)
+    for (int a = 0; a < y.count; ++a)
+      add(y.first + a, z.first + b, 1.0f - y.weight[a] - z.weight[b], true);
   for (int side = 0; side < 2; ++side) {
-    add_beyond(1, y, J, side, [&](int j, double w) {
-      for (int k = z.first[K]; k < z.first[K + 1]; ++k)
-        add(j, k, w, false);
-    });
-    add_beyond(2, z, K, side, [&](int k, double w) {
-      for (int j = y.first[J]; j < y.first[J + 1]; ++j)
-        add(j, k, w, false);
-    });
+    const int j = side == 0 ? y.first - 1 : y.first + y.count;
+    const int k = side == 0 ? z.first - 1 : z.first + z.count;
+    for (int b = 0; b < z.count && y.beyond[side] > 0.0f; ++b)
+      add(j, z.first + b, y.beyond[side], false);
+    for (int a = 0; a < y.count && z.beyond[side] > 0.0f; ++a)
+      add(y.first + a, k, z.beyond[side], false);
   }
 }
 
-void Transfer::add_rows(const Rows& rows, int parity, Scratch& s) const
+/// The first rows of a parity overwrite what was there: a factor costs less than clearing.
+void Transfer::add_rows(const Rows& rows, int parity, bool first, Scratch& s) const
 {
-  const int m = fine_.layout().count(parity);
+  const int m = Layout::whole_vectors(fine_.layout().count(parity));
   float* __restrict all = s.all.data() + pad + parity * split_;
   float* __restrict own = s.own.data() + pad + parity * split_;
   // Rows that are missing repeat an existing one with weight zero.
   const float* any = rows.own > 0 ? rows.row[0] : rows.beyond > 2 ? rows.row[2] : nullptr;
-  if (any == nullptr)
+  if (any == nullptr) {
+    std::fill_n(all, first ? m : 0, 0.0f);
+    std::fill_n(own, first ? m : 0, 0.0f);
     return;
+  }
+  const float kept = first ? 0.0f : 1.0f;
   std::array<const float*, 6> row;
   std::array<float, 6> w;
   for (int n = 0; n < 6; ++n) {
@@ -153,8 +172,8 @@ void Transfer::add_rows(const Rows& rows, int parity, Scratch& s) const
   const float* __restrict r5 = row[5];
 #pragma omp simd
   for (int n = 0; n < m; ++n) {
-    all[n] += w[0] * r0[n] + w[1] * r1[n] + w[2] * r2[n] + w[3] * r3[n] + w[4] * r4[n] + w[5] * r5[n];
-    own[n] += own0 * r0[n] + own1 * r1[n];
+    all[n] = kept * all[n] + w[0] * r0[n] + w[1] * r1[n] + w[2] * r2[n] + w[3] * r3[n] + w[4] * r4[n] + w[5] * r5[n];
+    own[n] = kept * own[n] + own0 * r0[n] + own1 * r1[n];
   }
 }
 
@@ -172,8 +191,9 @@ void Transfer::combine_pairs(const Run& run, Scratch& s) const
   const float* __restrict all_second = s.all.data() + second;
   const float* __restrict own_first = s.own.data() + first;
   const float* __restrict own_second = s.own.data() + second;
+  const int m = Layout::whole_vectors(run.count);
 #pragma omp simd
-  for (int t = 0; t < run.count; ++t) {
+  for (int t = 0; t < m; ++t) {
     low[t] = w_first[t] * own_first[t];
     high[t] = w_second[t] * own_second[t];
     F[t] = all_first[t] + all_second[t] - low[t] - high[t];
@@ -186,13 +206,12 @@ void Transfer::combine_singles(const Run& run, Scratch& s) const
   float* __restrict F = s.coarse.data() + pad + run.coarse;
   const float* __restrict even = s.all.data() + pad + split_place(run.fine);
   const float* __restrict odd = s.all.data() + pad + split_place(run.fine + 1);
+  const int m = Layout::whole_vectors((run.count + 1) / 2);
 #pragma omp simd
-  for (int t = 0; t < run.count / 2; ++t) {
+  for (int t = 0; t < m; ++t) {
     F[2 * t] = even[t];
     F[2 * t + 1] = odd[t];
   }
-  if (run.count % 2 == 1)
-    F[run.count - 1] = even[run.count / 2];
 }
 
 /// F_I = sum over children (all_i - w_i own_i) + w own of the cells next to I in its neighbours.
@@ -207,9 +226,11 @@ void Transfer::combine(Scratch& s) const
   float* __restrict F = s.coarse.data() + pad;
   const float* __restrict low = s.low.data() + pad;
   const float* __restrict high = s.high.data() + pad;
+  const int m = Layout::whole_vectors(N);
 #pragma omp simd
-  for (int I = 0; I < N; ++I)
+  for (int I = 0; I < m; ++I)
     F[I] += high[I - 1] + low[I + 1];
+  std::fill_n(F + N, pad, 0.0f);
 }
 
 void Transfer::store_coarse_row(int J, int K, Scratch& s) const
@@ -225,7 +246,7 @@ void Transfer::store_coarse_row(int J, int K, Scratch& s) const
   const Layout& layout = coarse_.layout();
   for (int q = 0; q < 2; ++q) {
     float* __restrict out = coarse_.f.data() + layout.start(J, K, (J + K + q) & 1);
-    const int m = (N - q + 1) / 2;
+    const int m = Layout::whole_vectors((N - q + 1) / 2);
 #pragma omp simd
     for (int t = 0; t < m; ++t)
       out[t] = F[2 * t + q];
@@ -234,15 +255,15 @@ void Transfer::store_coarse_row(int J, int K, Scratch& s) const
 
 void Transfer::restrict_row(int J, int K, Scratch& s) const
 {
-  std::fill(s.all.begin(), s.all.end(), 0.0f);
-  std::fill(s.own.begin(), s.own.end(), 0.0f);
+  bool first = true;
   for (int colour = 0; colour < 2; ++colour) {
     if (!includes(fine_.residual_colours(), colour))
       continue;
     std::array<Rows, 2> rows;
     gather_rows(J, K, colour, rows);
     for (int parity = 0; parity < 2; ++parity)
-      add_rows(rows[parity], parity, s);
+      add_rows(rows[parity], parity, first, s);
+    first = false;
   }
   combine(s);
   store_coarse_row(J, K, s);
@@ -280,8 +301,9 @@ void Transfer::begin_prolongation()
       float* __restrict out = natural_.data() + natural_row(J, K);
       const float* __restrict even = coarse_.u.data() + layout.start(J, K, (J + K) & 1);
       const float* __restrict odd = coarse_.u.data() + layout.start(J, K, (J + K + 1) & 1);
+      const int m = Layout::whole_vectors((N + 1) / 2);
 #pragma omp simd
-      for (int t = 0; t < (N + 1) / 2; ++t) {
+      for (int t = 0; t < m; ++t) {
         out[2 * t] = even[t];
         out[2 * t + 1] = odd[t];
       }

@@ -33,6 +33,12 @@ class Transfer {
     float weight;
   };
   struct Scratch;
+  /// Fine cells of a coarse index along j or k, and those beyond either side that interpolate from it too.
+  struct Children {
+    int first, count;
+    std::array<float, 2> weight;  ///< w of the first and of the last
+    std::array<float, 2> beyond;  ///< w of the cells before the first and after the last; 0 if not from here
+  };
   /// The six rows of residuals of one parity that a coarse row gathers: two of its own, and one beyond each side.
   struct Rows {
     std::array<const float*, 6> row{};
@@ -41,10 +47,11 @@ class Transfer {
     int beyond = 2;
   };
   void make_tables();
+  [[nodiscard]] std::vector<Children> children_along(int axis) const;
   void prolong_extras();
   void restrict_row(int J, int K, Scratch& s) const;
   void gather_rows(int J, int K, int colour, std::array<Rows, 2>& rows) const;
-  void add_rows(const Rows& rows, int parity, Scratch& s) const;
+  void add_rows(const Rows& rows, int parity, bool first, Scratch& s) const;
   /// Coarse cells next to each other in a row that all hold two fine cells, or all one.
   struct Run {
     int fine, coarse;  ///< the first of either
@@ -67,11 +74,12 @@ class Transfer {
   Level& fine_;
   Level& coarse_;
   std::array<Merge, 3> merges_;
-  IndexBox home_;               // coarse cells whose children this rank owns
-  std::vector<Run> runs_;       // of a row
-  std::vector<float> weight_;   // of the cells of a row, split by parity of i
-  std::ptrdiff_t split_ = 0;    // from even to odd cells in split rows
-  std::vector<float> natural_;  // coarse.u, i fastest, with one layer around home
+  IndexBox home_;                                  // coarse cells whose children this rank owns
+  std::vector<Run> runs_;                          // of a row
+  std::array<std::vector<Children>, 3> children_;  // along j and k, of the coarse cells of home
+  Values weight_;                                  // of the cells of a row, split by parity of i
+  std::ptrdiff_t split_ = 0;                       // from even to odd cells in split rows
+  Values natural_;                                 // coarse.u, i fastest, with one layer around home
   std::ptrdiff_t natural_stride_ = 0;
   std::vector<Weight> restriction_;   // by coarse owner
   std::vector<Weight> prolongation_;  // by plane of the fine cell, extras last
