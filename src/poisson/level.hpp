@@ -12,7 +12,8 @@
 
 namespace luff::poisson {
 
-/// Away from blocked faces the operator is a product of 1-D tables, so no coefficient is read from memory:
+/// Away from blocked faces the operator is a product of 1-D tables, so no coefficient but the inverse diagonal, which
+/// rows of equal widths across them share, is read from memory:
 ///
 ///   (A u)_ijk = h_j h_k [ (u_i - u_i-1)/d_i + (u_i - u_i+1)/d_i+1 ] + h_i [ h_k (...)_j + h_j (...)_k ].
 ///
