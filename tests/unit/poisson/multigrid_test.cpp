@@ -122,6 +122,22 @@ struct Pair {
   std::unique_ptr<Transfer> transfer;
 };
 
+TEST(Layout, EndsRowsInWholeVectorsThatReachNoCellOfTheNext)
+{
+  for (int n = 1; n <= 40; ++n) {
+    const Layout layout(IndexBox{{0, 0, 0}, {n, 2, 2}});
+    for (int colour = 0; colour < 2; ++colour) {
+      const std::ptrdiff_t start = layout.start(0, 0, colour);
+      const std::ptrdiff_t before_next_row = layout.start(1, 0, colour) - 1;  // cell -1 where there is one
+      for (int parity = 0; parity < 2; ++parity) {
+        EXPECT_LE(start + Layout::whole_vectors(layout.count(parity)), before_next_row) << n;
+        EXPECT_LT(start + layout.count(parity), before_next_row) << n;
+      }
+      EXPECT_EQ(start % Layout::vector, 0) << n;
+    }
+  }
+}
+
 TEST(Transfer, ProlongsAConstantExactlyAndNothingIntoClosedPockets)
 {
   for (const Problem& problem : problems()) {
