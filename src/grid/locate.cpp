@@ -259,6 +259,14 @@ int cell_at(const Grid& grid, int axis, double x)
   return std::clamp(static_cast<int>(above) - 1, 0, grid.cells()[axis] - 1);
 }
 
+Vec3 widths_at(const Grid& grid, const Vec3& x)
+{
+  Vec3 widths;
+  for (int a = 0; a < 3; ++a)
+    widths[a] = grid.width(a, cell_at(grid, a, x[a]));
+  return widths;
+}
+
 std::optional<Location> locate(const Grid& grid, const Vec3& x)
 {
   return grid.visit([&]<class Metric>(const Metric& m) -> std::optional<Location> {

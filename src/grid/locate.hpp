@@ -30,6 +30,9 @@ struct Location {
 /// Index along an axis of the cells that hold x, of the nearest ones where none do.  Uniform and rectilinear grids.
 [[nodiscard]] int cell_at(const Grid& grid, int axis, double x);
 
+/// Widths of the cell around a place, of the nearest one where there is none.  Uniform and rectilinear grids.
+[[nodiscard]] Vec3 widths_at(const Grid& grid, const Vec3& x);
+
 /// Where a point stands: in the grid or outside, and on which sides, [axis][end], to 1e-9 of a cell.
 struct Standing {
   bool inside = false;

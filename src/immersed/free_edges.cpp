@@ -62,13 +62,9 @@ FadingSheets::FadingSheets(const grid::Grid& grid, std::span<const Vec3> positio
   add_strips();
 }
 
-/// Of the cell around a place; of the nearest cell where there is none.
 Vec3 FadingSheets::cell_widths(const Vec3& x) const
 {
-  Vec3 widths;
-  for (int a = 0; a < 3; ++a)
-    widths[a] = grid_.width(a, grid::cell_at(grid_, a, x[a]));
-  return widths;
+  return grid::widths_at(grid_, x);
 }
 
 bool FadingSheets::lies_in_side(const FreeEdge& edge) const

@@ -17,14 +17,6 @@ constexpr double reach = 0.9;
 /// Moments of inertia below this part of the largest are those of a line about itself.
 constexpr double slender = 1e-9;
 
-Vec3 inverse_widths(const grid::Grid& grid, const Vec3& x)
-{
-  Vec3 inverse;
-  for (int a = 0; a < 3; ++a)
-    inverse[a] = 1.0 / grid.width(a, grid::cell_at(grid, a, x[a]));
-  return inverse;
-}
-
 /// Of the vertices below `count`: the others that share a triangle with them.
 std::vector<std::vector<int>> neighbours(std::span<const std::array<int, 3>> triangles, int count)
 {
@@ -69,7 +61,7 @@ VertexPatches::VertexPatches(const grid::Grid& grid, std::span<const Vec3> posit
   const std::vector<double> area = areas(positions, triangles, count);
   std::vector<int> seen_from(count, -1);
   for (int v = 0; v < count; ++v) {
-    const Vec3 per_cell = inverse_widths(grid, positions[v]);
+    const Vec3 per_cell = grid::widths_at(grid, positions[v]).cwiseInverse();
     std::vector<Member> members{{v, area[v], Vec3::Zero()}};
     seen_from[v] = v;
     for (std::size_t m = 0; m < members.size(); ++m)  // outwards along edges, as far as they reach
