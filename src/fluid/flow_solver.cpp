@@ -104,6 +104,7 @@ void FlowSolver::start(const VectorFunction& velocity, double t_0)
   p_.fill(0.0);  // the potential that corrected the initial fluxes is no pressure
   operators::recover_velocity(grid_, views(std::as_const(U_)), views(u_));
   state_ = {u_, U_, U_, p_, p_, 0.0, 0};
+  trial_is_accepted_ = true;
 }
 
 void FlowSolver::begin_step(const TimeStep& step, const immersed::SheetMotion& predicted)
@@ -112,18 +113,20 @@ void FlowSolver::begin_step(const TimeStep& step, const immersed::SheetMotion& p
   sheet_vertices_ = predicted.position.size();
   boundary_.evaluate_at(step.t_old);
   const double inflow = boundary_.largest_speed();
-  find_cut_links(predicted, inflow > 0.0 ? inflow : largest_speed());
+  const double own_speed = std::max(largest_speed(), inflow);
+  find_cut_links(predicted, inflow > 0.0 ? inflow : own_speed);
 
   double sheet_speed = 0.0;
   for (const Vec3& v : predicted.velocity)
     sheet_speed = std::max(sheet_speed, v.norm());
   // The pressure has to take up what the forces of a step set in motion, in a fluid at rest too.
-  const double own_speed = std::max(largest_speed(), inflow);
   speed_ = std::max({own_speed, sheet_speed, step.dt * constant_part(options_.acceleration).norm(),
                      step.dt * boundary_.largest_pressure() / grid_.smallest_width() * side_pressure_share});
   from_rest_ = own_speed == 0.0;
-  u_ = state_.u;
-  U_ = state_.U;
+  if (!std::exchange(trial_is_accepted_, false)) {
+    u_ = state_.u;
+    p_ = state_.p;
+  }
   repair_pressure();
   for (auto& du : increment_)
     du.fill(0.0);
@@ -143,13 +146,13 @@ void FlowSolver::begin_step(const TimeStep& step, const immersed::SheetMotion& p
 void FlowSolver::begin_explicit(std::span<const Stage> stages)
 {
   freeze_pressure_push(stages[0]);
-  advance_stage(stages[0]);
+  advance_stage(stages[0], state_.U);
   bind_to_walls(stages[0], SheetVelocity::Predicted);
   predict_with_old_pressure({stages[0].end});
   recover({stages[0].end});
 
   freeze_pressure_push(stages[1]);
-  advance_stage(stages[1]);
+  advance_stage(stages[1], U_);
   bind_to_walls(stages[1], SheetVelocity::Predicted);
   compute_fluxes({stages[1].end});
   if (state_.steps > 1)
@@ -158,7 +161,7 @@ void FlowSolver::begin_explicit(std::span<const Stage> stages)
   recover({stages[1].end});
 
   freeze_pressure_push(stages[2]);
-  advance_stage(stages[2]);
+  advance_stage(stages[2], U_);
   if (state_.steps > 0)
     guess_pressure(state_.p.view(), third_stage_ahead);
 }
@@ -251,7 +254,7 @@ void FlowSolver::implicit_increment(const View3<double>& du)
   predict_with_old_pressure({implicit_stage_.end});
   set_implicit_velocity();
   increment_ = known_;
-  advance_stage(implicit_stage_);
+  advance_stage(implicit_stage_, U_);
   bind_to_walls(implicit_stage_, SheetVelocity::Predicted);
   operators::set_multiple(grid_.owned(), 1.0, views(std::as_const(increment_)), du);
 }
@@ -281,6 +284,7 @@ void FlowSolver::accept()
   state_.p = p_;
   state_.dt = step_.dt;
   ++state_.steps;
+  trial_is_accepted_ = true;
 }
 
 void FlowSolver::restore(FlowState state, const immersed::FluxOffsets& offsets,
@@ -292,8 +296,8 @@ void FlowSolver::restore(FlowState state, const immersed::FluxOffsets& offsets,
     wall_nodes_->restore(node_offsets);
   boundary_.evaluate_at(t);
   u_ = state_.u;
-  U_ = state_.U;
   p_ = state_.p;
+  trial_is_accepted_ = true;
 }
 
 void FlowSolver::find_cut_links(const immersed::SheetMotion& predicted, double speed)
@@ -316,8 +320,8 @@ void FlowSolver::find_cut_links(const immersed::SheetMotion& predicted, double s
   balance_.update(links_, *pressure_);
 }
 
-/// du <- du + dt (gamma N(u) + zeta N_old), in every cell; the wall terms of cut cells follow in bind_to_walls().
-void FlowSolver::advance_stage(const Stage& stage)
+/// du <- du + dt (gamma N(u, U) + zeta N_old), in every cell; the wall terms of cut cells follow in bind_to_walls().
+void FlowSolver::advance_stage(const Stage& stage, const Field3<double>& U)
 {
   fill_velocity_halo(views(u_));
   const operators::StageWeights weights{step_.dt * stage.new_rate, step_.dt * stage.old_rate};
@@ -329,12 +333,11 @@ void FlowSolver::advance_stage(const Stage& stage)
   const Vec3 force = constant_part(options_.acceleration);
   {
     const auto timer = profile_.time(Phase::Momentum);
-    operators::advance_momentum(grid_, views(std::as_const(u_)), views(std::as_const(U_)), options_.viscosity, force,
-                                weights, views(rate_), views(increment_));
-    boundary_.add_wall_stress(views(std::as_const(u_)), views(std::as_const(U_)), options_.viscosity, weights.new_rate,
-                              views(rate_), views(increment_));
-    boundary_.add_entering_rate(views(std::as_const(u_)), views(std::as_const(U_)), weights.new_rate, views(rate_),
-                                views(increment_));
+    operators::advance_momentum(grid_, views(std::as_const(u_)), views(U), options_.viscosity, force, weights,
+                                views(rate_), views(increment_));
+    boundary_.add_wall_stress(views(std::as_const(u_)), views(U), options_.viscosity, weights.new_rate, views(rate_),
+                              views(increment_));
+    boundary_.add_entering_rate(views(std::as_const(u_)), views(U), weights.new_rate, views(rate_), views(increment_));
   }
   if (cross_terms_)
     change_cross_terms_beside(weights);
@@ -584,12 +587,11 @@ void FlowSolver::set_body_velocity(const StageTime& time)
   }
 }
 
-/// p <- p^n; in cells that changed sides, the mean over neighbours on the new side.
+/// p^n; in cells that changed sides, the mean over neighbours on the new side.
 void FlowSolver::repair_pressure()
 {
   const auto timer = profile_.time(Phase::CutCells);
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  p_ = state_.p;
   const auto p = p_.view();
   for (const Index3& c : links_.flipped())
     p(c) = unknown;

@@ -164,7 +164,7 @@ class FlowSolver {
   void find_recovered_part();
   void implicit_increment(const View3<double>& du);
   void set_body_velocity(const immersed::StageTime& time);
-  void advance_stage(const Stage& stage);
+  void advance_stage(const Stage& stage, const Field3<double>& U);
   void add_cross_terms(const immersed::StageTime& time);
   void change_cross_terms_beside(const operators::StageWeights& weights);
   void add_varying_force(const operators::StageWeights& weights, double t);
@@ -210,6 +210,7 @@ class FlowSolver {
   Field3<double> u_;                       ///< velocity of the latest stage
   Field3<double> U_;                       ///< fluxes of the latest stage
   Field<double> p_;                        ///< pressure of the latest stage
+  bool trial_is_accepted_ = false;         ///< u_ and p_ are those of the accepted state
   Field<double> p_load_;                   ///< pressure extrapolated to t^{n+1}
   std::vector<double> repaired_pressure_;  ///< p^{n-1/2} of links_.flipped() on their new side; no number: not known
   Field3<double> increment_;               ///< du = u^ - u^n, u^ the pressure-free velocity

@@ -49,7 +49,7 @@ class Field {
     const std::ptrdiff_t row = (line + owned.extent(0) + halo + line - 1) / line * line;
     const std::ptrdiff_t plane = row * (owned.extent(1) + 2 * halo);
     size_ = plane * (owned.extent(2) + 2 * halo) + line;
-    T* data = static_cast<T*>(allocate_for_kernels(size_ * sizeof(T) + page));
+    T* data = static_cast<T*>(allocate_for_kernels(size_ * sizeof(T) + way));
     storage_.reset(data);
     start_ = data + stagger() / sizeof(T);
     view_ = {start_ + line - owned.lo[0] + (halo - owned.lo[1]) * row + (halo - owned.lo[2]) * plane, row, plane};
@@ -83,15 +83,15 @@ class Field {
   };
   void copy_from(const Field& other) { std::copy_n(other.start_, size_, start_); }
 
-  /// Large allocations begin alike within their pages, so that the same cell of a dozen fields falls on the same lines
-  /// of a cache: kernels that read them together were up to ten times slower (measured, curvilinear fluxes).  Each
-  /// field therefore begins elsewhere in its page.
-  static constexpr std::size_t page = 4096;
+  /// Large allocations begin alike, so that the same cell of a dozen fields falls on the same lines of a cache: kernels
+  /// that read them together were up to ten times slower (measured, curvilinear fluxes).  Each field therefore begins
+  /// elsewhere in what a way of a second-level cache holds.
+  static constexpr std::size_t way = 65536;
   static std::size_t stagger()
   {
     static std::atomic<std::size_t> fields{0};
-    constexpr std::size_t lines = 11;  // has no divisor in common with the lines of a page
-    return 64 * lines * fields++ % page;
+    constexpr std::size_t lines = 395;  // has no divisor in common with the lines of a way, nor nearly so with a page's
+    return 64 * lines * fields++ % way;
   }
 
   IndexBox owned_{};

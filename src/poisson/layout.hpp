@@ -4,14 +4,11 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdlib>
 #include <memory>
-#include <new>
 #include <utility>
 
-#include <sys/mman.h>
-
 #include "parallel/index_box.hpp"
+#include "parallel/memory.hpp"
 
 namespace luff::poisson {
 
@@ -86,7 +83,7 @@ class Values {
     size_ = size;
     if (size > capacity_) {
       capacity_ = size + size / 8 + 64;
-      data_.reset(allocate(capacity_ * sizeof(float)));
+      data_.reset(static_cast<float*>(allocate_for_kernels(capacity_ * sizeof(float))));
     }
     std::fill_n(data_.get(), size_, 0.0f);
   }
@@ -97,22 +94,8 @@ class Values {
   float operator[](std::ptrdiff_t q) const { return data_[q]; }
 
  private:
-  /// Large arrays lie on huge pages where the system has some: a twentieth less time for a solve on 96^3 cells.
-  [[nodiscard]] static float* allocate(std::size_t bytes)
-  {
-    constexpr std::size_t huge_page = 2097152;
-    const std::size_t alignment = bytes < huge_page ? 64 : huge_page;
-    void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-    if (memory == nullptr)
-      throw std::bad_alloc();
-#ifdef MADV_HUGEPAGE
-    if (alignment == huge_page)
-      madvise(memory, bytes, MADV_HUGEPAGE);
-#endif
-    return static_cast<float*>(memory);
-  }
   struct Free {
-    void operator()(float* p) const { std::free(p); }
+    void operator()(float* p) const { free_for_kernels(p); }
   };
   std::ptrdiff_t size_ = 0;
   std::ptrdiff_t capacity_ = 0;
