@@ -207,6 +207,11 @@ void Level::relax_plane(int k, int colour, Values& x, const Values& b)
     for (int n = 0; n < end; ++n)
       out[n] = (rhs[n] + row.neighbours(n)) * row.inverse(n);
   });
+  relax_cut_cells_plane(k, colour, x, b);
+}
+
+void Level::relax_cut_cells_plane(int k, int colour, Values& x, const Values& b)
+{
   for (const Row* row = rows_begin(k, colour); row != rows_end(k, colour); ++row)
     x[row->place] = (b[row->place] + neighbour_sum(*row, x.data())) * row->inverse;
   exchange_.close_plane(x.data(), k, colour == 0 ? Colours::Red : Colours::Black);

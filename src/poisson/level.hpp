@@ -54,6 +54,9 @@ class Level {
   void relax_plane(int k, int colour, Values& x, const Values& b);
   void start_plane(int k) { start_plane(k, 0, u, f); }
   void relax_plane(int k, int colour) { relax_plane(k, colour, u, f); }
+  /// Of the cells that blocked faces touch only.
+  void relax_cut_cells_plane(int k, int colour, Values& x, const Values& b);
+  void relax_cut_cells_plane(int k, int colour) { relax_cut_cells_plane(k, colour, u, f); }
   /// r = f - A u on cells of a colour.
   void residual_plane(int k, int colour);
   /// q = A p; returns the sum of p q over plane k.

@@ -334,10 +334,31 @@ bool Multigrid::waves_between_halos(std::size_t l) const
          threads_for(level.layout().owned) == 1;
 }
 
+/// Whether cells that blocked faces touch are relaxed once more; the same on every rank.  The upward smoothing of cross
+/// terms has no counterpart to it.
+bool Multigrid::sweeps_beside_cuts(std::size_t l) const
+{
+  return cross_terms_.empty() && !cuts_[l].cells.empty();
+}
+
 namespace {
 
-/// What smoothing does on a plane.  Extras are relaxed plane by plane, or all at once where planes come from elsewhere.
-enum class Stage { Prolong, Start, Red, Black, EvenExtras, OddExtras, AllExtras, Prepare, Residual, After };
+/// What smoothing does on a plane.  Cut: of the cells that blocked faces touch only.  Extras are relaxed plane by
+/// plane, or all at once where planes come from elsewhere.
+enum class Stage {
+  Prolong,
+  Start,
+  Red,
+  Black,
+  CutRed,
+  CutBlack,
+  EvenExtras,
+  OddExtras,
+  AllExtras,
+  Prepare,
+  Residual,
+  After
+};
 
 void add_extras(std::vector<Stage>& stages, Level& level, Level::Order order)
 {
@@ -351,11 +372,15 @@ void add_extras(std::vector<Stage>& stages, Level& level, Level::Order order)
     stages.insert(stages.end(), {Stage::OddExtras, Stage::EvenExtras});
 }
 
-std::vector<Stage> stages_down(Level& level, int sweeps, bool cross_terms)
+std::vector<Stage> stages_down(Level& level, int sweeps, bool beside_cuts, bool cross_terms)
 {
   std::vector<Stage> stages{Stage::Start, Stage::Black};
   for (int n = 1; n < sweeps; ++n) {
     add_extras(stages, level, Level::Order::Forward);
+    if (n == 1 && beside_cuts) {
+      stages.insert(stages.end(), {Stage::CutRed, Stage::CutBlack});
+      add_extras(stages, level, Level::Order::Forward);
+    }
     stages.insert(stages.end(), {Stage::Red, Stage::Black});
   }
   if (cross_terms)
@@ -364,15 +389,29 @@ std::vector<Stage> stages_down(Level& level, int sweeps, bool cross_terms)
   return stages;
 }
 
-std::vector<Stage> stages_up(Level& level, int sweeps)
+std::vector<Stage> stages_up(Level& level, int sweeps, bool beside_cuts)
 {
   std::vector<Stage> stages{Stage::Prolong};
   for (int n = 0; n < sweeps; ++n) {
     stages.insert(stages.end(), {Stage::Black, Stage::Red});
     add_extras(stages, level, Level::Order::Backward);
+    if (n + 2 == sweeps && beside_cuts) {
+      stages.insert(stages.end(), {Stage::CutBlack, Stage::CutRed});
+      add_extras(stages, level, Level::Order::Backward);
+    }
   }
   stages.push_back(Stage::After);
   return stages;
+}
+
+[[nodiscard]] bool relaxes_red(Stage stage)
+{
+  return stage == Stage::Red || stage == Stage::CutRed;
+}
+
+[[nodiscard]] bool relaxes_black(Stage stage)
+{
+  return stage == Stage::Black || stage == Stage::CutBlack;
 }
 
 /// Cells of a colour, or extras where the plane is one of their stage.
@@ -380,6 +419,8 @@ void relax(Level& level, Stage stage, int k, Level::Order order)
 {
   if (stage == Stage::Red || stage == Stage::Black)
     level.relax_plane(k, stage == Stage::Red ? 0 : 1);
+  else if (stage == Stage::CutRed || stage == Stage::CutBlack)
+    level.relax_cut_cells_plane(k, stage == Stage::CutRed ? 0 : 1);
   else if ((k & 1) == (stage == Stage::EvenExtras ? 0 : 1))
     level.relax_extras_plane(k, order);
 }
@@ -430,7 +471,7 @@ void Multigrid::smooth_from_zero(std::size_t l)
       halo.close_plane(level.r.data(), k, Colours::Both);
     }
   };
-  const std::vector<Stage> stages = stages_down(level, sweeps_[l], cross != nullptr);
+  const std::vector<Stage> stages = stages_down(level, sweeps_[l], sweeps_beside_cuts(l), cross != nullptr);
   const auto work = [&](int s, int k) {
     if (stages[s] == Stage::Start)
       level.start_plane(k);
@@ -444,9 +485,9 @@ void Multigrid::smooth_from_zero(std::size_t l)
   const auto share = [&](int s) {
     if (s + 1 < static_cast<int>(stages.size()) && stages[s + 1] == Stage::Prepare)
       halo.exchange_with_edges(level.u.data());
-    else if (stages[s] == Stage::Start || stages[s] == Stage::Red)
+    else if (stages[s] == Stage::Start || relaxes_red(stages[s]))
       halo.exchange(level.u.data(), Colours::Red);
-    else if (stages[s] == Stage::Black)
+    else if (relaxes_black(stages[s]))
       halo.exchange(level.u.data(), Colours::Black);
   };
   if (cross != nullptr)
@@ -462,7 +503,7 @@ void Multigrid::smooth(std::size_t l, const PlaneWork& after)
   RowExchange& halo = level.exchange();
   const int threads = threads_for(level.layout().owned);
   correction.begin_prolongation();
-  const std::vector<Stage> stages = stages_up(level, sweeps_[l]);
+  const std::vector<Stage> stages = stages_up(level, sweeps_[l], sweeps_beside_cuts(l));
   const auto work = [&](int s, int k) {
     if (stages[s] == Stage::Prolong)
       correction.prolong_plane(k);
@@ -474,8 +515,10 @@ void Multigrid::smooth(std::size_t l, const PlaneWork& after)
   const auto share = [&](int s) {
     if (stages[s] == Stage::Prolong)
       halo.exchange(level.u.data(), level.residual_colours());
-    else if (stages[s] == Stage::Red || stages[s] == Stage::Black)
-      halo.exchange(level.u.data(), stages[s] == Stage::Red ? Colours::Red : Colours::Black);
+    else if (relaxes_red(stages[s]))
+      halo.exchange(level.u.data(), Colours::Red);
+    else if (relaxes_black(stages[s]))
+      halo.exchange(level.u.data(), Colours::Black);
   };
   run_smoothing(level, stages, Level::Order::Backward, waves_between_halos(l), threads, work, share);
 }

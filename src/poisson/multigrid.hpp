@@ -53,6 +53,7 @@ class Multigrid {
   void cycle(std::size_t l, const PlaneWork& after);
   void coarsen_cross_terms(std::size_t l);
   [[nodiscard]] bool waves_between_halos(std::size_t l) const;
+  [[nodiscard]] bool sweeps_beside_cuts(std::size_t l) const;
   void smooth_from_zero(std::size_t l);
   void smooth(std::size_t l, const PlaneWork& after);
   void smooth_with_cross_terms(std::size_t l, const PlaneWork& after);
