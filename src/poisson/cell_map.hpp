@@ -23,11 +23,17 @@ class CellMap {
     }
   }
 
+  /// Makes room for this many keys and one more.
+  void reserve(std::size_t count)
+  {
+    while (2 * (count + 1) > slots_.size())
+      grow();
+  }
+
   /// Stores a number under a key that is not there yet.
   void insert(std::int64_t key, int value)
   {
-    if (2 * (count_ + 1) > slots_.size())
-      grow();
+    reserve(count_);
     place(key, value);
     ++count_;
   }

@@ -11,6 +11,18 @@ int number(Unknown x, int cells)
   return is_cell(x) ? static_cast<int>(x) : cells + extra_number(x);
 }
 
+/// Of each column, over some rows.
+void remove_means(const std::vector<int>& rows, Eigen::MatrixXd& matrix)
+{
+  for (auto column : matrix.colwise()) {
+    double sum = 0.0;
+    for (const int a : rows)
+      sum += column[a];
+    for (const int a : rows)
+      column[a] -= sum / static_cast<double>(rows.size());
+  }
+}
+
 }  // namespace
 
 void CoarsestSolver::assemble(const Level& level, const Cuts& cuts, Eigen::MatrixXd& A, std::vector<char>& grounded)
@@ -73,28 +85,40 @@ void CoarsestSolver::label(const Eigen::MatrixXd& A, const std::vector<char>& gr
   }
 }
 
-/// A^+ = Pi (A + sum_c s v_c v_c^T)^-1 Pi, v_c the unit constant on component c, Pi the projection that removes them.
+/// The unknowns of each floating component.
+std::vector<std::vector<int>> CoarsestSolver::floating_members() const
+{
+  std::vector<std::vector<int>> members(floating_.size());
+  for (int a = 0; a < static_cast<int>(component_.size()); ++a)
+    if (floating_[component_[a]] != 0)
+      members[component_[a]].push_back(a);
+  std::erase_if(members, [](const auto& m) { return m.empty(); });
+  return members;
+}
+
+/// A^+ = Pi (A + sum_c s v_c v_c^T)^-1 Pi, v_c the unit constant on component c that floats, Pi the projection that
+/// removes them.
 void CoarsestSolver::factorise(const Level& level, const Cuts& cuts)
 {
   Eigen::MatrixXd A;
   std::vector<char> grounded;
   assemble(level, cuts, A, grounded);
   label(A, grounded);
-  const int n = static_cast<int>(A.rows());
+  const auto n = static_cast<int>(A.rows());
   A = 0.5 * (A + A.transpose()).eval();
   const double scale = std::max(A.diagonal().maxCoeff(), 1e-30);
-  Eigen::MatrixXd projection = Eigen::MatrixXd::Identity(n, n);
-  std::vector<int> size(floating_.size(), 0);
-  for (const int c : component_)
-    ++size[c];
-  for (int a = 0; a < n; ++a)
-    for (int b = 0; b < n; ++b)
-      if (component_[a] == component_[b] && floating_[component_[a]] != 0) {
-        A(a, b) += scale / size[component_[a]];
-        projection(a, b) -= 1.0 / size[component_[a]];
-      }
-  const Eigen::MatrixXd inverse = A.llt().solve(projection);
-  inverse_ = (0.5 * (projection * inverse + (projection * inverse).transpose())).cast<float>();
+  const std::vector<std::vector<int>> constants = floating_members();
+  for (const std::vector<int>& members : constants)
+    for (const int a : members)
+      for (const int b : members)
+        A(a, b) += scale / static_cast<double>(members.size());
+  Eigen::MatrixXd inverse = A.llt().solve(Eigen::MatrixXd::Identity(n, n));
+  for (int side = 0; side < 2; ++side) {
+    for (const std::vector<int>& members : constants)
+      remove_means(members, inverse);
+    inverse.transposeInPlace();
+  }
+  inverse_ = (0.5 * (inverse + inverse.transpose())).cast<float>();
   f_.resize(n);
   u_.resize(n);
 }

@@ -26,6 +26,7 @@ class CoarsestSolver {
  private:
   void assemble(const Level& level, const Cuts& cuts, Eigen::MatrixXd& A, std::vector<char>& grounded);
   void label(const Eigen::MatrixXd& A, const std::vector<char>& grounded);
+  [[nodiscard]] std::vector<std::vector<int>> floating_members() const;
 
   std::vector<std::ptrdiff_t> place_;
   std::vector<int> component_;

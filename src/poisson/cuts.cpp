@@ -41,6 +41,19 @@ void sort_links(std::vector<Link>& links)
   links.resize(kept);
 }
 
+/// Of sorted links.
+void find_link_ranges(Cuts& cuts, const Box& box)
+{
+  for (std::size_t begin = 0, end = 0; begin < cuts.links.size(); begin = end) {
+    const Unknown from = cuts.links[begin].from;
+    while (end < cuts.links.size() && cuts.links[end].from == from)
+      ++end;
+    LinkRange& range =
+        is_cell(from) ? cuts.cells[add_cell(cuts, box, box.cell(from))].links : cuts.extras[extra_number(from)].links;
+    range = {static_cast<int>(begin), static_cast<int>(end)};
+  }
+}
+
 /// Builds the cuts of one level from those of the next finer one.
 class Coarsening {
  public:
@@ -60,6 +73,7 @@ class Coarsening {
     for (std::size_t n = 0; n < cuts_.cells.size(); ++n)
       sum_coefficients(static_cast<int>(n), n < boxes_.size() ? boxes_[n].extras : none_);
     sort_links(cuts_.links);
+    find_link_ranges(cuts_, coarse_);
     for (std::size_t n = 0; n < cuts_.cells.size(); ++n)
       correct_interpolation(static_cast<int>(n), n < boxes_.size() ? boxes_[n].extras : none_);
     return std::move(cuts_);
@@ -96,6 +110,10 @@ class Coarsening {
     return child.cut != nullptr ? child.cut->coefficient[side] : fine_.coefficient(child.cell, side);
   }
   [[nodiscard]] Unknown parent_of(Unknown x) const { return parent(fine_cuts_, fine_, cuts_, coarse_, merges_, x); }
+  [[nodiscard]] Unknown parent_of_cell(const Index3& c) const
+  {
+    return poisson::parent_of_cell(cuts_, coarse_, merges_, c);
+  }
 
   void collect_boxes()
   {
@@ -104,6 +122,7 @@ class Coarsening {
       boxes_.resize(std::max<std::size_t>(boxes_.size(), n + 1));
       return n;
     };
+    cuts_.find.reserve(fine_cuts_.cells.size() / 2);
     for (std::size_t n = 0; n < fine_cuts_.cells.size(); ++n) {
       const Index3& c = fine_cuts_.cells[n].cell;
       const int position = position_in_box(c);
@@ -181,7 +200,7 @@ class Coarsening {
     };
     for (const int e : extras) {
       const int own = place_of(extra_unknown(e));
-      for (const Link& link : fine_cuts_.links_from(extra_unknown(e)))
+      for (const Link& link : fine_cuts_.links_from_extra(e))
         if (const int other = place_of(link.to); other >= 0 && other < own)
           passages_.join(own, other, link.coefficient);
       const Index3& cell = fine_cuts_.extras[e].cell;
@@ -197,21 +216,23 @@ class Coarsening {
     return merges_[side / 2].scale[C[side / 2] + side % 2];
   }
 
-  /// Sum of the coarse coefficients that lead from a fine unknown out of its coarse cell.
-  [[nodiscard]] double outward(const Index3& C, Unknown x) const
+  /// Sum of the coarse coefficients of links out of a coarse cell.
+  [[nodiscard]] double outward(const Index3& C, std::span<const Link> links) const
   {
     double sum = 0.0;
-    for (const Link& link : fine_cuts_.links_from(x))
+    for (const Link& link : links)
       if (link.to == outside || box_of(fine_cell_of(link.to)) != C)
         sum += link.coefficient * coarse_over_fine(C, link.side);
-    if (!is_cell(x))
-      return sum;
-    const Index3 cell = fine_.cell(x);
-    const Child child{cell, fine_cuts_.at(x), 0};
+    return sum;
+  }
+  /// The same of all that leads out of it from one of its children.
+  [[nodiscard]] double outward(const Index3& C, const Child& child) const
+  {
+    double sum = child.cut != nullptr ? outward(C, fine_cuts_.links_from(child.cut->links)) : 0.0;
     for (int side = 0; side < 6; ++side) {
       Index3 other;
       const double c = fine_coefficient(child, side);
-      if (c > 0.0 && (!fine_.neighbour(cell, side, other) || box_of(other) != C))
+      if (c > 0.0 && (!fine_.neighbour(child.cell, side, other) || box_of(other) != C))
         sum += c * coarse_over_fine(C, side);
     }
     return sum;
@@ -230,7 +251,8 @@ class Coarsening {
     if (!passages_.has_sides())
       return;
     for (int m = 0; m < members; ++m)
-      passages_.lead_out(m, outward(C, m < cells ? fine_.key(children_[m].cell) : extra_unknown(extras[m - cells])));
+      passages_.lead_out(
+          m, m < cells ? outward(C, children_[m]) : outward(C, fine_cuts_.links_from_extra(extras[m - cells])));
     const std::vector<int>& part = passages_.parts();
     std::vector<double> measure(members, 0.0);
     std::vector<char> open(members, 0);
@@ -252,7 +274,7 @@ class Coarsening {
         unknown[m] = coarse_.key(C);
       } else if (open[m] != 0) {
         unknown[m] = extra_unknown(static_cast<int>(cuts_.extras.size()));
-        cuts_.extras.push_back({C, measure[m]});
+        cuts_.extras.push_back({.cell = C, .measure = measure[m], .links = {}});
       } else {
         unknown[m] = first_pocket + cuts_.pockets++;
       }
@@ -266,6 +288,11 @@ class Coarsening {
     cuts_.parts.push_back(parts);
     for (std::size_t m = 0; m < extras.size(); ++m)
       fine_cuts_.parent_of_extra[extras[m]] = unknown[part[cells + m]];
+  }
+
+  [[nodiscard]] Unknown unknown_of(const CutCell& coarse, const Child& child) const
+  {
+    return coarse.split() ? cuts_.parts[coarse.parts][child.position] : coarse_.key(coarse.cell);
   }
 
   void add_neighbours_of_split_cells()
@@ -304,18 +331,18 @@ class Coarsening {
       if (from != to)
         cuts_.links.push_back({from, to, within, c});
     };
-    const auto add_links = [&](Unknown x) {
-      for (const Link& link : fine_cuts_.links_from(x))
+    const auto add_links = [&](Unknown own, std::span<const Link> links) {
+      for (const Link& link : links)
         if (link.to == outside)
-          add(parent_of(x), outside, link.side, link.coefficient);
+          add(own, outside, link.side, link.coefficient);
         else if (box_of(fine_cell_of(link.to)) != C)
-          add(parent_of(x), parent_of(link.to), link.side, link.coefficient);
+          add(own, parent_of(link.to), link.side, link.coefficient);
         else
-          add_within(parent_of(x), parent_of(link.to), link.coefficient);
+          add_within(own, parent_of(link.to), link.coefficient);
     };
     list_children(n, children_);
     for (const Child& child : children_) {
-      const Unknown x = fine_.key(child.cell);
+      const Unknown own = unknown_of(cut, child);
       for (int side = 0; side < 6; ++side) {
         const double c = fine_coefficient(child, side);
         Index3 other;
@@ -324,19 +351,19 @@ class Coarsening {
         const bool inside = fine_.neighbour(child.cell, side, other);
         if (inside && box_of(other) == C) {
           if (cut.split() && other != child.cell)
-            add_within(parent_of(x), parent_of(fine_.key(other)), c);
+            add_within(own, parent_of_cell(other), c);
           continue;
         }
         if (!cut.split() && !beside_split(n, side))
           cut.coefficient[side] += c * coarse_over_fine(C, side);
         else
-          add(parent_of(x), inside ? parent_of(fine_.key(other)) : outside, side, c);
+          add(own, inside ? parent_of_cell(other) : outside, side, c);
       }
       if (child.cut != nullptr)
-        add_links(x);
+        add_links(own, fine_cuts_.links_from(child.cut->links));
     }
     for (const int e : extras)
-      add_links(extra_unknown(e));
+      add_links(fine_cuts_.parent_of_extra[e], fine_cuts_.links_from_extra(e));
   }
 
   /// Interpolation stays linear towards a neighbour that an open face joins, when neither cell is split; it becomes
@@ -349,7 +376,7 @@ class Coarsening {
     list_children(n, children_);
     for (const Child& child : children_) {
       const Unknown x = fine_.key(child.cell);
-      const Unknown own = cut.split() ? cuts_.parts[cut.parts][child.position] : key;
+      const Unknown own = unknown_of(cut, child);
       double to_cell = own == key ? 0.0 : -1.0;
       for (int a = 0; a < 3; ++a) {
         const double w = merges_[a].weight[child.cell[a]];
@@ -411,13 +438,6 @@ double Box::typical_diagonal() const
   return std::sqrt(square);
 }
 
-std::span<const Link> Cuts::links_from(Unknown x) const
-{
-  const auto range = std::equal_range(links.begin(), links.end(), Link{x, 0, 0, 0.0},
-                                      [](const Link& a, const Link& b) { return a.from < b.from; });
-  return {range.first, range.second};
-}
-
 namespace {
 
 /// visit(cell, side) for both cells beside a face that lie in the domain.
@@ -456,6 +476,7 @@ std::vector<Index3> cells_beside(const Box& box, std::span<const FaceIndex> face
 Cuts cuts_of_blocked_faces(const Box& box, std::span<const FaceIndex> faces)
 {
   Cuts cuts;
+  cuts.find.reserve(faces.size());
   for (const FaceIndex& face : faces)
     for_cells_beside(box, face, [&](const Index3& cell, int side) {
       const auto known = cuts.cells.size();
@@ -502,20 +523,25 @@ Cuts coarsen_cuts(Cuts& fine_cuts, const Box& fine, const Box& coarse, const std
   return Coarsening(fine_cuts, fine, coarse, merges).run();
 }
 
+Unknown parent_of_cell(const Cuts& coarse_cuts, const Box& coarse, const std::array<Merge, 3>& merges,
+                       const Index3& cell)
+{
+  const Index3 C{merges[0].parent[cell[0]], merges[1].parent[cell[1]], merges[2].parent[cell[2]]};
+  const Unknown key = coarse.key(C);
+  const CutCell* cut = coarse_cuts.at(key);
+  if (cut == nullptr || !cut->split())
+    return key;
+  int position = 0;
+  for (int a = 0; a < 3; ++a)
+    position += (cell[a] - merges[a].first[C[a]]) << a;
+  return coarse_cuts.parts[cut->parts][position];
+}
+
 Unknown parent(const Cuts& fine_cuts, const Box& fine, const Cuts& coarse_cuts, const Box& coarse,
                const std::array<Merge, 3>& merges, Unknown x)
 {
-  if (!is_cell(x))
-    return fine_cuts.parent_of_extra[extra_number(x)];
-  const Index3 c = fine.cell(x);
-  const Index3 C{merges[0].parent[c[0]], merges[1].parent[c[1]], merges[2].parent[c[2]]};
-  const CutCell* cut = coarse_cuts.at(coarse.key(C));
-  if (cut == nullptr || !cut->split())
-    return coarse.key(C);
-  int position = 0;
-  for (int a = 0; a < 3; ++a)
-    position += (c[a] - merges[a].first[C[a]]) << a;
-  return coarse_cuts.parts[cut->parts][position];
+  return is_cell(x) ? parent_of_cell(coarse_cuts, coarse, merges, fine.cell(x))
+                    : fine_cuts.parent_of_extra[extra_number(x)];
 }
 
 }  // namespace luff::poisson

@@ -80,12 +80,19 @@ struct Box {
   }
 };
 
+/// Places in Cuts::links of what leads from one unknown.
+struct LinkRange {
+  int begin = 0;
+  int end = 0;
+};
+
 /// A cell whose coefficients or interpolation may differ from the clean ones.
 struct CutCell {
   Index3 cell{};
   std::array<double, 6> coefficient{};  ///< to the neighbouring cells, per side
   double measure = 0.0;                 ///< finest cells that its value stands for
   int parts = -1;                       ///< row of Cuts::parts where its children do not all hang together, or -1
+  LinkRange links;
   [[nodiscard]] bool split() const { return parts >= 0; }
 };
 
@@ -93,6 +100,7 @@ struct CutCell {
 struct Extra {
   Index3 cell{};
   double measure = 0.0;
+  LinkRange links;
 };
 
 /// Side of links between two unknowns of one cell.
@@ -129,7 +137,12 @@ struct Cuts {
     const int n = find.find(key);
     return n < 0 ? nullptr : &cells[n];
   }
-  [[nodiscard]] std::span<const Link> links_from(Unknown x) const;
+  /// Of a cell that is in `cells`, or of one of `extras`.
+  [[nodiscard]] std::span<const Link> links_from(const LinkRange& range) const
+  {
+    return {links.data() + range.begin, links.data() + range.end};
+  }
+  [[nodiscard]] std::span<const Link> links_from_extra(int e) const { return links_from(extras[e].links); }
 };
 
 /// Cells whose coefficients coarsen_cuts() may read from a box, sorted.
@@ -148,8 +161,10 @@ struct Cuts {
 [[nodiscard]] Cuts coarsen_cuts(Cuts& fine_cuts, const Box& fine, const Box& coarse,
                                 const std::array<Merge, 3>& merges);
 
-/// The coarse unknown of a fine one, or the pocket that holds it.
+/// The coarse unknown of a fine one, or the pocket that holds it; that of a fine cell.
 [[nodiscard]] Unknown parent(const Cuts& fine_cuts, const Box& fine, const Cuts& coarse_cuts, const Box& coarse,
                              const std::array<Merge, 3>& merges, Unknown x);
+[[nodiscard]] Unknown parent_of_cell(const Cuts& coarse_cuts, const Box& coarse, const std::array<Merge, 3>& merges,
+                                     const Index3& cell);
 
 }  // namespace luff::poisson

@@ -77,15 +77,18 @@ class Values {
   Values() = default;
   explicit Values(std::ptrdiff_t size) { resize(size); }
 
-  /// All values become zero.  Keeps the allocation where it is large enough.
-  void resize(std::ptrdiff_t size)
+  /// All values become zero.
+  void resize(std::ptrdiff_t size) { resize_from(0, size); }
+  /// Values from a place on become zero; all of them where the allocation is too small.
+  void resize_from(std::ptrdiff_t kept, std::ptrdiff_t size)
   {
-    size_ = size;
     if (size > capacity_) {
+      kept = 0;
       capacity_ = size + size / 8 + 64;
       data_.reset(static_cast<float*>(allocate_for_kernels(capacity_ * sizeof(float))));
     }
-    std::fill_n(data_.get(), size_, 0.0f);
+    size_ = size;
+    std::fill_n(data_.get() + kept, size_ - kept, 0.0f);
   }
   [[nodiscard]] std::ptrdiff_t size() const { return size_; }
   [[nodiscard]] float* data() { return data_.get(); }

@@ -344,12 +344,7 @@ const Level::Row* Level::rows_end(int k, int colour) const
   return rows_.data() + first_row_[2 * (k - layout_.owned.lo[2]) + colour + 1];
 }
 
-bool Level::owns(const Cuts& cuts, Unknown x) const
-{
-  return layout_.owned.contains(is_cell(x) ? box_.cell(x) : cuts.extras[extra_number(x)].cell);
-}
-
-std::ptrdiff_t Level::place(const Cuts&, Unknown x) const
+std::ptrdiff_t Level::place(Unknown x) const
 {
   if (!is_cell(x))
     return layout_.size + extra_number(x);
@@ -369,7 +364,7 @@ std::ptrdiff_t Level::place(const Cuts&, Unknown x) const
 }
 
 /// The place of a neighbour, seen across periodic seams as a halo cell, or of the cell itself.
-std::ptrdiff_t Level::place_beside(const Cuts&, const Index3& cell, int side, Unknown x) const
+std::ptrdiff_t Level::place_beside(const Index3& cell, int side, Unknown x) const
 {
   if (!is_cell(x))
     return layout_.size + extra_number(x);
@@ -403,18 +398,18 @@ void Level::finish_row(std::int32_t place, int begin, double grounded, std::vect
 
 void Level::add_cell_row(const Cuts& cuts, const CutCell& cut)
 {
-  const auto links = cuts.links_from(box_.key(cut.cell));
+  const auto links = cuts.links_from(cut.links);
   if (links.empty() && !differs(cut))
     return;
   const int begin = static_cast<int>(entries_.size());
   for (int side = 0; side < 6; ++side) {
     const double c = cut.coefficient[side];
     if (c > 0.0)
-      entries_.push_back({static_cast<std::int32_t>(place_beside(cuts, cut.cell, side, 0)), static_cast<float>(c)});
+      entries_.push_back({static_cast<std::int32_t>(place_beside(cut.cell, side, 0)), static_cast<float>(c)});
   }
   for (const Link& link : links) {
-    entries_.push_back({static_cast<std::int32_t>(place_beside(cuts, cut.cell, link.side, link.to)),
-                        static_cast<float>(link.coefficient)});
+    entries_.push_back(
+        {static_cast<std::int32_t>(place_beside(cut.cell, link.side, link.to)), static_cast<float>(link.coefficient)});
   }
   const Index3& c = cut.cell;
   finish_row(static_cast<std::int32_t>(layout_.index(c[0], c[1], c[2])), begin, /*grounded=*/0.0, rows_);
@@ -424,11 +419,11 @@ void Level::add_extra_row(const Cuts& cuts, int e)
 {
   const int begin = static_cast<int>(entries_.size());
   double grounded = 0.0;
-  for (const Link& link : cuts.links_from(extra_unknown(e))) {
+  for (const Link& link : cuts.links_from_extra(e)) {
     if (link.to == outside)
       grounded += link.coefficient;
     else
-      entries_.push_back({static_cast<std::int32_t>(place_beside(cuts, cuts.extras[e].cell, link.side, link.to)),
+      entries_.push_back({static_cast<std::int32_t>(place_beside(cuts.extras[e].cell, link.side, link.to)),
                           static_cast<float>(link.coefficient)});
   }
   finish_row(static_cast<std::int32_t>(layout_.size + e), begin, grounded, extra_rows_);
@@ -456,31 +451,24 @@ void Level::set_cuts(const Cuts& cuts)
   extra_rows_.clear();
   entries_.clear();
   owned_extras_.clear();
-  const bool resize = static_cast<int>(cuts.extras.size()) != extras_ || u.size() == 0;
   extras_ = static_cast<int>(cuts.extras.size());
-  if (resize)
-    for (Values* values : {&u, &f, &r})
-      values->resize(layout_.size + extras_);
+  for (Values* values : {&u, &f, &r})
+    values->resize_from(layout_.size, layout_.size + extras_);
   const auto& owned = layout_.owned;
-  std::vector<const CutCell*> cells;
+  std::vector<std::pair<std::ptrdiff_t, const CutCell*>> cells;  // by planes and colours, then along rows
   for (const CutCell& cut : cuts.cells)
     if (owned.contains(cut.cell))
-      cells.push_back(&cut);
-  const auto group = [&](const CutCell* cut) {
-    const Index3& c = cut->cell;
-    return 2 * (c[2] - owned.lo[2]) + ((c[0] + c[1] + c[2]) & 1);
-  };
-  std::sort(cells.begin(), cells.end(), [&](const CutCell* a, const CutCell* b) {
-    return std::tuple(group(a), a->cell[1], a->cell[0]) < std::tuple(group(b), b->cell[1], b->cell[0]);
-  });
-  const int groups = 2 * owned.extent(2);
-  first_row_.assign(groups + 1, 0);
+      cells.emplace_back(layout_.index(cut.cell), &cut);
+  std::sort(cells.begin(), cells.end());
+  first_row_.assign(1, 0);
   auto next = cells.begin();
-  for (int g = 0; g < groups; ++g) {
-    for (; next != cells.end() && group(*next) == g; ++next)
-      add_cell_row(cuts, **next);
-    first_row_[g + 1] = static_cast<int>(rows_.size());
-  }
+  for (int k = owned.lo[2]; k < owned.hi[2]; ++k)
+    for (int colour = 0; colour < 2; ++colour) {
+      const std::ptrdiff_t end = layout_.start(owned.hi[1], k, colour);
+      for (; next != cells.end() && next->first < end; ++next)
+        add_cell_row(cuts, *next->second);
+      first_row_.push_back(static_cast<int>(rows_.size()));
+    }
   for (int e = 0; e < extras_; ++e)
     if (owned.contains(cuts.extras[e].cell))
       owned_extras_.push_back(e);

@@ -46,8 +46,7 @@ class Level {
   void set_cuts(const Cuts& cuts);
   [[nodiscard]] const std::vector<int>& owned_extras() const { return owned_extras_; }
   /// Place of an unknown in the arrays, for a reader near this rank's block; -1 where this rank does not hold it.
-  [[nodiscard]] std::ptrdiff_t place(const Cuts& cuts, Unknown x) const;
-  [[nodiscard]] bool owns(const Cuts& cuts, Unknown x) const;
+  [[nodiscard]] std::ptrdiff_t place(Unknown x) const;
 
   /// x = b / diagonal on cells of a colour of plane k: a half sweep for A x = b from x = 0.
   void start_plane(int k, int colour, Values& x, const Values& b);
@@ -100,7 +99,7 @@ class Level {
   void add_extra_rows(const Cuts& cuts);
   void add_extra_row(const Cuts& cuts, int e);
   void finish_row(std::int32_t place, int begin, double grounded, std::vector<Row>& rows);
-  [[nodiscard]] std::ptrdiff_t place_beside(const Cuts& cuts, const Index3& cell, int side, Unknown x) const;
+  [[nodiscard]] std::ptrdiff_t place_beside(const Index3& cell, int side, Unknown x) const;
   [[nodiscard]] bool differs(const CutCell& cut) const;
   [[nodiscard]] const Row* rows_begin(int k, int colour) const;
   [[nodiscard]] const Row* rows_end(int k, int colour) const;

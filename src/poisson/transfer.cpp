@@ -2,6 +2,7 @@
 #include "poisson/transfer.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace luff::poisson {
 
@@ -83,37 +84,34 @@ std::vector<Transfer::Children> Transfer::children_along(int axis) const
 void Transfer::set_cuts(const Cuts& fine_cuts, const Cuts& coarse_cuts)
 {
   restriction_.clear();
-  prolongation_.clear();
   const IndexBox& owned = fine_.layout().owned;
-  const auto colour = [&](Unknown x) {
-    const Index3 c = fine_.box().cell(x);
-    return (c[0] + c[1] + c[2]) & 1;
-  };
   const int planes = owned.extent(2);
-  std::vector<std::pair<int, Weight>> by_plane;
+  std::vector<std::pair<int, Weight>> of_planes;  // extras after the last
+  first_of_plane_.assign(planes + 2, 0);
   for (const Interpolation& p : fine_cuts.interpolation) {
-    if (is_cell(p.fine) && !includes(fine_.residual_colours(), colour(p.fine)))
+    const bool extra = !is_cell(p.fine);
+    const Index3 c = extra ? Index3{} : fine_.box().cell(p.fine);
+    if (!extra && !includes(fine_.residual_colours(), (c[0] + c[1] + c[2]) & 1))
       continue;
     const Index3 C = is_cell(p.coarse) ? coarse_.box().cell(p.coarse) : coarse_cuts.extras[extra_number(p.coarse)].cell;
-    if (home_.contains(C))
-      restriction_.push_back({static_cast<std::int32_t>(fine_.place(fine_cuts, p.fine)),
-                              static_cast<std::int32_t>(coarse_.place(coarse_cuts, p.coarse)),
-                              static_cast<float>(p.weight)});
-    const bool extra = !is_cell(p.fine);
-    if (extra || fine_.owns(fine_cuts, p.fine))
-      by_plane.push_back(
-          {extra ? planes : fine_.box().cell(p.fine)[2] - owned.lo[2],
-           {static_cast<std::int32_t>(fine_.place(fine_cuts, p.fine)),
-            static_cast<std::int32_t>(coarse_.place(coarse_cuts, p.coarse)), static_cast<float>(p.weight)}});
+    const bool restricts = home_.contains(C);
+    const bool prolongs = extra || owned.contains(c);
+    if (!restricts && !prolongs)
+      continue;
+    const Weight weight{static_cast<std::int32_t>(fine_.place(p.fine)),
+                        static_cast<std::int32_t>(coarse_.place(p.coarse)), static_cast<float>(p.weight)};
+    if (restricts)
+      restriction_.push_back(weight);
+    if (prolongs) {
+      of_planes.emplace_back(extra ? planes : c[2] - owned.lo[2], weight);
+      ++first_of_plane_[of_planes.back().first + 1];
+    }
   }
-  std::stable_sort(by_plane.begin(), by_plane.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  first_of_plane_.assign(planes + 2, 0);
-  for (const auto& [plane, weight] : by_plane) {
-    prolongation_.push_back(weight);
-    ++first_of_plane_[plane + 1];
-  }
-  for (int p = 0; p <= planes; ++p)
-    first_of_plane_[p + 1] += first_of_plane_[p];
+  std::partial_sum(first_of_plane_.begin(), first_of_plane_.end(), first_of_plane_.begin());
+  prolongation_.resize(of_planes.size());
+  std::vector<int> next = first_of_plane_;
+  for (const auto& [plane, weight] : of_planes)
+    prolongation_[next[plane]++] = weight;
 }
 
 /// Rows of a coarse row's own children, and the nearest rows of its neighbours that interpolate from it too.

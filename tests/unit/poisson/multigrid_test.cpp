@@ -207,7 +207,8 @@ TEST(Cuts, AreTheSameFromBothEndsOfEveryLink)
         continue;
       double back = 0.0;
       const int opposite = link.side == within ? within : link.side ^ 1;
-      for (const Link& other : cuts.links_from(link.to))
+      for (const Link& other :
+           is_cell(link.to) ? cuts.links_from(cuts.at(link.to)->links) : cuts.links_from_extra(extra_number(link.to)))
         if (other.to == link.from && other.side == opposite)
           back = other.coefficient;
       EXPECT_NEAR(link.coefficient, back, 1e-12);
