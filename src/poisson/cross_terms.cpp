@@ -43,6 +43,12 @@ void CrossTerms::close()
     level_.exchange().exchange_with_edges(g.data());
 }
 
+void CrossTerms::set_partial_faces(std::span<const FaceIndex> faces)
+{
+  const auto& lines = level_.box().lines;
+  beside_partial_ = {faces, layout_.owned, cells_, {lines[0].periodic, lines[1].periodic, lines[2].periodic}, 2};
+}
+
 inline float CrossTerms::half(int axis, int side, int index) const
 {
   const int end = side == 0 ? 0 : cells_[axis] - 1;
@@ -133,6 +139,20 @@ void CrossTerms::add_ends(int j, int k, const float* values)
   }
 }
 
+/// Takes the closed parts of faces out of w in the cells of a plane.  None of them lies on a side of the domain.
+void CrossTerms::weigh_cross_terms(int k, const float* values)
+{
+  for (const PartialFaces::Beside& face : beside_partial_.on_plane(k)) {
+    const int b = face.axis;
+    const std::ptrdiff_t own = layout_.index(face.cell);
+    const std::ptrdiff_t beyond = layout_.index(stepped(face.cell, b, face.side == 0 ? -1 : 1));
+    const float d = (face.side == 0 ? -0.5f : 0.5f) * (values[beyond] - values[own]);
+    for (const int a : {(b + 1) % 3, (b + 2) % 3})
+      if (beside_partial_.has_cross_term(a, face.cell))
+        w(a, k)[own] -= static_cast<float>(face.closed) * g_[pair_without(3 - a - b)][own] * d;
+  }
+}
+
 /// w_1 beyond the ends of a row.
 void CrossTerms::close_row(int j, int k)
 {
@@ -155,15 +175,38 @@ void CrossTerms::prepare_plane(int k, const float* values)
     for (int colour = 0; colour < 2; ++colour)
       cross_row(j, k, colour, values);
     add_ends(j, k, values);
-    close_row(j, k);
   }
   for (int side = 0; side < 2; ++side) {
     if (beyond_[1][side] == Beyond::Cells && cells_[1] > 1)
       across(1, side == 0 ? owned.lo[1] - 1 : owned.hi[1], k);
-    if (beyond_[2][side] == Beyond::Cells && cells_[2] > 1 && k == (side == 0 ? owned.lo[2] : owned.hi[2] - 1))
-      for (int j = owned.lo[1]; j < owned.hi[1]; ++j)
-        across(2, j, side == 0 ? k - 1 : k + 1);
+    if (beyond_[2][side] != Beyond::Cells || cells_[2] == 1 || k != (side == 0 ? owned.lo[2] : owned.hi[2] - 1))
+      continue;
+    const int beyond = side == 0 ? k - 1 : k + 1;
+    for (int j = owned.lo[1]; j < owned.hi[1]; ++j)
+      across(2, j, beyond);
+    weigh_cross_terms(beyond, values);
   }
+  weigh_cross_terms(k, values);
+  for (int j = owned.lo[1]; j < owned.hi[1]; ++j)
+    close_row(j, k);
+}
+
+/// Takes the closed parts of faces out of what was added on a plane; returns the change of the sum.
+template <int sign>
+double CrossTerms::weigh_cross_fluxes(int k, const float* p, float* q) const
+{
+  double sum = 0.0;
+  for (const PartialFaces::Beside& face : beside_partial_.on_plane(k)) {
+    if (!beside_partial_.owns(face.cell))
+      continue;
+    const Index3 beyond = stepped(face.cell, face.axis, face.side == 0 ? -1 : 1);
+    const std::ptrdiff_t own = layout_.index(face.cell);
+    const float flux = w(face.axis, k)[own] + w(face.axis, beyond[2])[layout_.index(beyond)];
+    const float value = (face.side == 0 ? -0.5f : 0.5f) * sign * static_cast<float>(face.closed) * flux;
+    q[own] += value;
+    sum += value * p[own];
+  }
+  return sum;
 }
 
 /// At sides of the domain w beyond is that of the cell itself.
@@ -204,7 +247,7 @@ double CrossTerms::add_plane(int k, const float* p, float* q) const
       }
       sum += part;
     }
-  return sum;
+  return sum + weigh_cross_fluxes<sign>(k, p, q);
 }
 
 template double CrossTerms::add_plane<1>(int, const float*, float*) const;

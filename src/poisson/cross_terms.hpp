@@ -3,6 +3,7 @@
 #pragma once
 
 #include "poisson/level.hpp"
+#include "poisson/partial_faces.hpp"
 
 namespace luff::poisson {
 
@@ -19,6 +20,9 @@ class CrossTerms {
   void load(std::span<const Index3> cells, const Source& source);
   /// Those of cells beyond the edges of this rank's block.  Collective.
   void close();
+
+  /// Faces of all ranks that are open in part.
+  void set_partial_faces(std::span<const FaceIndex> faces);
 
   /// Keeps w on the latest planes only, which then stay in cache: for one thread that applies plane k right after it
   /// prepared plane k + 1; or on all planes.
@@ -40,6 +44,9 @@ class CrossTerms {
   void cross_row(int j, int k, int colour, const float* values);
   void cross_row_across(int axis, int j, int k, int colour, const float* values);
   void add_ends(int j, int k, const float* values);
+  void weigh_cross_terms(int k, const float* values);
+  template <int sign>
+  double weigh_cross_fluxes(int k, const float* p, float* q) const;
   void close_row(int j, int k);
   /// Differences to p = 0 on a side are twice those to the value beyond, which is zero.
   [[nodiscard]] float half(int axis, int side, int index) const;
@@ -63,6 +70,7 @@ class CrossTerms {
   int slots_ = 0;
   Index3 cells_{};
   std::array<std::array<Beyond, 2>, 3> beyond_{};
+  PartialFaces beside_partial_;
   std::array<Values, 3> g_;
   std::array<Values, 3> w_;
 };

@@ -51,6 +51,10 @@ void CurvilinearCorrection::set_blocked(std::span<const FaceIndex> faces)
 {
   FluxCorrection::set_blocked(faces);
   changes_ = operator_.set_blocked(faces);
+  const Decomposition& ranks = grid_.ranks();
+  partial_faces_ = gather_partial_faces(ranks.comm(), faces);
+  beside_partial_ = {
+      partial_faces_, grid_.owned(), grid_.cells(), {ranks.periodic(0), ranks.periodic(1), ranks.periodic(2)}, outer_};
 }
 
 double CurvilinearCorrection::largest_divergence(const double* net, int j, int k) const
@@ -99,6 +103,21 @@ void CurvilinearCorrection::cross_row(int axis, const View<const T>& p, int j, i
   }
 }
 
+/// Takes the closed parts of faces out of w in the cells of a plane.
+template <class T>
+void CurvilinearCorrection::weigh_cross_terms(const View<const T>& p, int t)
+{
+  for (const PartialFaces::Beside& face : beside_partial_.on_plane(t)) {
+    const int b = face.axis;
+    const Index3 beyond = stepped(face.cell, b, face.side == 0 ? -1 : 1);
+    const double d =
+        (face.side == 0 ? -1.0 : 1.0) * (static_cast<double>(p(beyond)) - static_cast<double>(p(face.cell)));
+    for (const int a : {(b + 1) % 3, (b + 2) % 3})
+      if (beside_partial_.has_cross_term(a, face.cell))
+        w_[a].view()(face.cell) -= 0.5 * face.closed * operator_.cross()[pair_without(3 - a - b)](face.cell) * d;
+  }
+}
+
 /// w_1 beyond both ends of a row.
 void CurvilinearCorrection::close_row(int j, int k)
 {
@@ -121,16 +140,20 @@ void CurvilinearCorrection::cross_plane(const View<const T>& p, int t)
   for_rows(t, [&](int j, int k) {
     for (int a = 0; a < 3; ++a)
       cross_row(a, p, j, k);
-    close_row(j, k);
   });
   for (int side = 0; side < 2; ++side) {
     if (continues(inner, side))
       row(inner, side == 0 ? owned.lo[inner] - 1 : owned.hi[inner], t);
     const bool at_edge = t == (side == 0 ? owned.lo[outer_] : owned.hi[outer_] - 1);
-    if (at_edge && continues(outer_, side))
-      for (int b = owned.lo[inner]; b < owned.hi[inner]; ++b)
-        row(outer_, b, side == 0 ? t - 1 : t + 1);
+    if (!at_edge || !continues(outer_, side))
+      continue;
+    const int beyond = side == 0 ? t - 1 : t + 1;
+    for (int b = owned.lo[inner]; b < owned.hi[inner]; ++b)
+      row(outer_, b, beyond);
+    weigh_cross_terms(p, beyond);
   }
+  weigh_cross_terms(p, t);
+  for_rows(t, [&](int j, int k) { close_row(j, k); });
 }
 
 void CurvilinearCorrection::prepare_plane(const View<const double>& p, int t)
@@ -186,12 +209,32 @@ void CurvilinearCorrection::correct_across_rows(int axis, const View<double>& U,
                 low_side ? own : below, high_side ? below : own, factor, grid_.cells()[0]);
 }
 
+/// Takes the closed parts of faces out of the cross fluxes of a plane.
+void CurvilinearCorrection::weigh_cross_fluxes(const View3<double>& U, double factor, int t) const
+{
+  const auto weigh = [&](const PartialFaces::Beside& beside) {
+    const Index3 face = stepped(beside.cell, beside.axis, beside.side);
+    const View<const double> w = w_[beside.axis].view();
+    U[beside.axis](face) += factor * beside.closed * 0.5 * (w(stepped(face, beside.axis, -1)) + w(face));
+  };
+  const bool last = t + 1 == grid_.owned().hi[outer_];
+  for (const PartialFaces::Beside& beside : beside_partial_.on_plane(t)) {
+    if (!beside_partial_.owns(beside.cell))
+      continue;
+    const bool at_end = beside.cell[beside.axis] + 1 == grid_.owned().hi[beside.axis];
+    const bool in_plane = beside.axis != outer_ || last;
+    if (beside.side == 0 || (at_end && in_plane))
+      weigh(beside);
+  }
+}
+
 template <class T>
 void CurvilinearCorrection::correct_plane_of(const View3<double>& U, const View<const T>& p, double factor, int t)
 {
   for_faces(
       t, [&](int j, int k) { correct_along_row(U[0], p, factor, j, k); },
       [&](int axis, int j, int k) { correct_across_rows(axis, U[axis], p, factor, j, k); });
+  weigh_cross_fluxes(U, factor, t);
 }
 
 void CurvilinearCorrection::correct_plane(const View3<double>& U, const View<const double>& p, double factor, int t)

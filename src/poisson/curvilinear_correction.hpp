@@ -4,6 +4,7 @@
 
 #include "poisson/curvilinear_operator.hpp"
 #include "poisson/flux_correction.hpp"
+#include "poisson/partial_faces.hpp"
 
 namespace luff::poisson {
 
@@ -14,6 +15,8 @@ class CurvilinearCorrection final : public FluxCorrection {
 
   void set_blocked(std::span<const FaceIndex> faces) override;
   [[nodiscard]] const CurvilinearOperator& gradient() const { return operator_; }
+  /// Of all ranks.
+  [[nodiscard]] const std::vector<FaceIndex>& partial_faces() const { return partial_faces_; }
   /// What the last call of set_blocked() changed.
   [[nodiscard]] const CurvilinearOperator::Changes& changes() const { return changes_; }
 
@@ -36,6 +39,9 @@ class CurvilinearCorrection final : public FluxCorrection {
   void cross_plane(const View<const T>& p, int t);
   template <class T>
   void cross_row(int axis, const View<const T>& p, int j, int k);
+  template <class T>
+  void weigh_cross_terms(const View<const T>& p, int t);
+  void weigh_cross_fluxes(const View3<double>& U, double factor, int t) const;
   void close_row(int j, int k);
   template <class T>
   void correct_plane_of(const View3<double>& U, const View<const T>& p, double factor, int t);
@@ -46,6 +52,8 @@ class CurvilinearCorrection final : public FluxCorrection {
 
   CurvilinearOperator operator_;
   CurvilinearOperator::Changes changes_;
+  std::vector<FaceIndex> partial_faces_;
+  PartialFaces beside_partial_;
   Field3<double> w_;  // cross terms of the latest planes
   Field<double> width_over_volume_;
 };

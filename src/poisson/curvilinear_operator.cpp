@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "operators/octant_closure.hpp"
+
 namespace luff::poisson {
 
 CurvilinearOperator::CurvilinearOperator(const Decomposition& ranks, const View<const double> (&G)[6],
@@ -11,7 +13,7 @@ CurvilinearOperator::CurvilinearOperator(const Decomposition& ranks, const View<
     : ranks_(ranks),
       sides_(sides),
       halo_(ranks),
-      closed_(ranks.owned()),
+      open_(make_field3<double>(ranks.owned())),
       normal_(make_field3<double>(ranks.owned())),
       face_(make_field3<double>(ranks.owned())),
       cross_(make_field3<double>(ranks.owned()))
@@ -30,20 +32,19 @@ CurvilinearOperator::CurvilinearOperator(const Decomposition& ranks, const View<
 }
 
 /// Neumann sides, and both faces of a single periodic cell, which is its own neighbour.
+bool CurvilinearOperator::stays_closed(const FaceIndex& f) const
+{
+  if (ranks_.periodic(f.axis))
+    return ranks_.cells()[f.axis] == 1;
+  return on_side(f) && sides_[f.axis][f.cell[f.axis] == 0 ? 0 : 1] == SideCondition::Neumann;
+}
+
 void CurvilinearOperator::close_sides()
 {
-  const Index3& n = ranks_.cells();
-  for_each_cell_in_order(ranks_.owned(), [&](int i, int j, int k) {
-    const Index3 c{i, j, k};
-    unsigned bits = 0;
-    for (int a = 0; a < 3; ++a)
-      for (int side = 0; side < 2; ++side) {
-        const bool at_end = c[a] == (side == 0 ? 0 : n[a] - 1);
-        const bool shut = ranks_.periodic(a) ? n[a] == 1 : at_end && sides_[a][side] == SideCondition::Neumann;
-        bits |= shut ? 1u << (2 * a + side) : 0u;
-      }
-    closed_(i, j, k) = static_cast<operators::ClosedFaces>(bits);
-  });
+  for (int a = 0; a < 3; ++a)
+    for_each_cell_in_order(ranks_.owned().faces(a), [&](int i, int j, int k) {
+      open_[a](i, j, k) = stays_closed({a, {i, j, k}}) ? 0.0 : 1.0;
+    });
 }
 
 bool CurvilinearOperator::on_side(const FaceIndex& f) const
@@ -51,66 +52,55 @@ bool CurvilinearOperator::on_side(const FaceIndex& f) const
   return !ranks_.periodic(f.axis) && (f.cell[f.axis] == 0 || f.cell[f.axis] == ranks_.cells()[f.axis]);
 }
 
-void CurvilinearOperator::set_blocked_bits(std::span<const FaceIndex> faces, bool blocked, std::vector<Index3>& touched)
+/// A face across a periodic seam that has this rank on both ends is two of its faces.
+void CurvilinearOperator::set_open(const FaceIndex& f, double open, std::vector<Index3>& touched)
 {
-  const auto set = [&](const Index3& c, int bit) {
-    if (!ranks_.owned().contains(c))
-      return;
-    unsigned bits = closed_.view()(c);
-    bits = blocked ? bits | 1u << bit : bits & ~(1u << bit);
-    closed_.view()(c) = static_cast<operators::ClosedFaces>(bits);
-    touched.push_back(c);
-  };
-  for (const FaceIndex& f : faces) {
-    if (on_side(f) && sides_[f.axis][f.cell[f.axis] == 0 ? 0 : 1] == SideCondition::Neumann)
+  if (stays_closed(f))
+    return;
+  const int n = ranks_.cells()[f.axis];
+  for (const int turn : ranks_.periodic(f.axis) ? std::vector{-n, 0, n} : std::vector{0}) {
+    const Index3 image = stepped(f.cell, f.axis, turn);
+    if (!ranks_.owned().faces(f.axis).contains(image))
       continue;
-    Index3 high = f.cell;
-    Index3 low = stepped(f.cell, f.axis, -1);
-    if (const int n = ranks_.cells()[f.axis]; ranks_.periodic(f.axis)) {
-      if (n == 1)
-        continue;
-      high[f.axis] %= n;
-      low[f.axis] = (low[f.axis] + n) % n;
-    }
-    set(high, 2 * f.axis);
-    set(low, 2 * f.axis + 1);
+    open_[f.axis].view()(image) = open;
+    for (const Index3& c : {image, stepped(image, f.axis, -1)})
+      if (ranks_.owned().contains(c))
+        touched.push_back(c);
   }
+}
+
+/// t_a: the mean of the closed parts of a cell's two faces.
+double CurvilinearOperator::closed_half(int axis, const Index3& c) const
+{
+  const View<const double> open = open_[axis].view();
+  return 0.5 * ((1.0 - open(c)) + (1.0 - open(stepped(c, axis, 1))));
 }
 
 /// Coefficients of one owned cell from its tensor and its closed faces.
 void CurvilinearOperator::close_cell(const Index3& c)
 {
-  const operators::ClosedFaces closed = closed_.view()(c);
   const auto g = [&](int a, int b) { return G_[a < b ? grid::symmetric(a, b) : grid::symmetric(b, a)](c); };
   for (int a = 0; a < 3; ++a) {
     const int b = (a + 1) % 3;
     const int e = (a + 2) % 3;
-    normal_[a].view()(c) =
-        operators::closed_normal(g(a, a), g(a, b), g(a, e), g(b, b), g(b, e), g(e, e),
-                                 operators::closed_half(closed, b), operators::closed_half(closed, e));
-    cross_[pair_without(a)].view()(c) =
-        operators::closed_cross(g(b, e), g(a, b), g(a, e), g(a, a), operators::closed_half(closed, a));
+    normal_[a].view()(c) = operators::closed_normal(g(a, a), g(a, b), g(a, e), g(b, b), g(b, e), g(e, e),
+                                                    closed_half(b, c), closed_half(e, c));
+    cross_[pair_without(a)].view()(c) = operators::closed_cross(g(b, e), g(a, b), g(a, e), g(a, a), closed_half(a, c));
   }
 }
 
-bool CurvilinearOperator::closed_face(const FaceIndex& f) const
-{
-  const bool high_side = !ranks_.periodic(f.axis) && f.cell[f.axis] == ranks_.cells()[f.axis];
-  return high_side ? operators::is_closed(closed_.view()(stepped(f.cell, f.axis, -1)), f.axis, 1)
-                   : operators::is_closed(closed_.view()(f.cell), f.axis, 0);
-}
-
-/// a_f = (G'_aa(L) + G'_aa(R))/2, of the one cell on sides of the domain.
+/// a_f = (G'_aa(L) + G'_aa(R))/2 times the open part, of the one cell on sides of the domain.
 void CurvilinearOperator::set_face(const FaceIndex& f)
 {
   const View<const double> normal = std::as_const(normal_[f.axis]).view();
   const Index3 low = stepped(f.cell, f.axis, -1);
   const bool low_side = on_side(f) && f.cell[f.axis] == 0;
   const bool high_side = on_side(f) && !low_side;
-  face_[f.axis].view()(f.cell) = closed_face(f) ? 0.0
-                                 : low_side     ? normal(f.cell)
-                                 : high_side    ? normal(low)
-                                                : 0.5 * (normal(low) + normal(f.cell));
+  const double open = open_[f.axis].view()(f.cell);
+  face_[f.axis].view()(f.cell) = open == 0.0 ? 0.0
+                                 : low_side  ? normal(f.cell)
+                                 : high_side ? normal(low)
+                                             : open * (0.5 * (normal(low) + normal(f.cell)));
 }
 
 /// The faces that set_face may set: low ones of owned cells, and those on high sides.
@@ -160,8 +150,10 @@ CurvilinearOperator::Changes CurvilinearOperator::set_blocked(std::span<const Fa
   std::set_difference(now.begin(), now.end(), blocked_.begin(), blocked_.end(), std::back_inserter(shut));
   blocked_ = std::move(now);
   Changes changes;
-  set_blocked_bits(opened, false, changes.cells);
-  set_blocked_bits(shut, true, changes.cells);
+  for (const FaceIndex& f : opened)
+    set_open(f, 1.0, changes.cells);
+  for (const FaceIndex& f : shut)
+    set_open(f, f.open, changes.cells);
   std::sort(changes.cells.begin(), changes.cells.end());
   changes.cells.erase(std::unique(changes.cells.begin(), changes.cells.end()), changes.cells.end());
   for (const Index3& c : changes.cells)

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "operators/octant_closure.hpp"
 #include "parallel/halo.hpp"
 #include "poisson/pressure_solver.hpp"
 
@@ -29,6 +28,10 @@ inline constexpr std::array<std::array<int, 2>, 3> cross_pairs{{{0, 1}, {0, 2}, 
 ///
 ///   F_f = a_f d_f + (w_a(L) + w_a(R))/2,   w_a = sum_{b != a} g_ab <d_b>,
 ///
+/// A face of which the part c is open counts as open with weight c and as closed with 1 - c: E is the mean of the
+/// energies of all combinations, in which <d_a> = (c_low d_low + c_high d_high)/2, a_f is c times what it is without,
+/// and the cross part of F_f too.
+///
 /// so that the equation div F = div U* is symmetric positive semi-definite, its null vectors the constants on connected
 /// parts.  Beyond Dirichlet sides p mirrors the cell inside, and w repeats it.
 class CurvilinearOperator {
@@ -48,26 +51,25 @@ class CurvilinearOperator {
   [[nodiscard]] View3<const double> face() const { return views(face_); }
   /// g_ab of cells, in the order of cross_pairs; with halo.
   [[nodiscard]] View3<const double> cross() const { return views(cross_); }
-  /// Closed faces of owned cells: blocked ones and Neumann sides.
-  [[nodiscard]] View<const operators::ClosedFaces> closed() const { return closed_.view(); }
   /// Largest |cos| of the angles between the gradients of two index directions, |G_ab|/sqrt(G_aa G_bb): 0 on an
   /// orthogonal grid.  Collective.
   [[nodiscard]] double largest_cosine() const;
 
  private:
   void close_sides();
-  void set_blocked_bits(std::span<const FaceIndex> faces, bool blocked, std::vector<Index3>& touched);
+  [[nodiscard]] bool stays_closed(const FaceIndex& f) const;
+  void set_open(const FaceIndex& f, double open, std::vector<Index3>& touched);
+  [[nodiscard]] double closed_half(int axis, const Index3& c) const;
   void close_cell(const Index3& c);
   void set_face(const FaceIndex& f);
   void list_faces(std::span<const Index3> cells, std::vector<FaceIndex>& faces) const;
   [[nodiscard]] bool on_side(const FaceIndex& f) const;
-  [[nodiscard]] bool closed_face(const FaceIndex& f) const;
 
   const Decomposition& ranks_;
   std::array<View<const double>, 6> G_;
   SideConditions sides_;
   HaloExchange halo_;
-  Field<operators::ClosedFaces> closed_;
+  Field3<double> open_;    // part of each face of owned cells
   Field3<double> normal_;  // coefficient of d_a^2 of cells
   Field3<double> face_;
   Field3<double> cross_;

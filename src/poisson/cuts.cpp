@@ -484,7 +484,8 @@ Cuts cuts_of_blocked_faces(const Box& box, std::span<const FaceIndex> faces)
       if (cuts.cells.size() > known)
         for (int s = 0; s < 6; ++s)
           cut.coefficient[s] = box.coefficient(cell, s);
-      cut.coefficient[side] = face.open * box.coefficient(cell, side);
+      if (box.stored == nullptr)
+        cut.coefficient[side] = face.open * box.coefficient(cell, side);
     });
   return cuts;
 }

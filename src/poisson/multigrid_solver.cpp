@@ -2,6 +2,7 @@
 #include "poisson/multigrid_solver.hpp"
 
 #include "parallel/denormals.hpp"
+#include "poisson/partial_faces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,24 +49,6 @@ constexpr double strong_skew = 0.85;
 Index3 longest_last(const Index3& cells)
 {
   return cells[1] > cells[2] ? Index3{0, 2, 1} : Index3{0, 1, 2};
-}
-
-std::vector<FaceIndex> gather_faces(MPI_Comm comm, const std::vector<FaceIndex>& own)
-{
-  static_assert(std::is_trivially_copyable_v<FaceIndex>);
-  constexpr int bytes = sizeof(FaceIndex);
-  int ranks = 1;
-  MPI_Comm_size(comm, &ranks);
-  std::vector<int> counts(ranks), starts(ranks, 0);
-  const int count = bytes * static_cast<int>(own.size());
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-  for (int r = 1; r < ranks; ++r)
-    starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<FaceIndex> all((starts.back() + counts.back()) / bytes);
-  MPI_Allgatherv(own.data(), count, MPI_BYTE, all.data(), counts.data(), starts.data(), MPI_BYTE, comm);
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
 }
 
 }  // namespace
@@ -190,6 +173,10 @@ void MultigridSolver::update_operator()
   multigrid_.update_coefficients(changes.faces, coefficient_source());
   cross_terms_->load(changes.cells, cross_source());
   cross_terms_->close();
+  std::vector<FaceIndex> partial = curvilinear_->partial_faces();
+  for (FaceIndex& face : partial)
+    face = internal(face);
+  cross_terms_->set_partial_faces(partial);
 }
 
 void MultigridSolver::set_blocked(std::span<const FaceIndex> faces)

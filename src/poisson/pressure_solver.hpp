@@ -55,7 +55,7 @@ struct Report {
 ///   (G p) = 0                          on blocked faces and Neumann sides,
 ///
 /// g the pressure given there; on curvilinear grids it is the one of CurvilinearOperator.  Through a face that is
-/// blocked in part it is that of an open face times the part that is open; not on curvilinear grids.
+/// blocked in part it is that of an open face times the part that is open.
 ///
 /// Calls are collective over the grid's ranks.  Ranks that share a face end with the same bits of flux there, and any
 /// number of threads gives the same bits everywhere.

@@ -63,8 +63,21 @@ struct CurvilinearProblem {
   [[nodiscard]] SideConditions conditions() const { return Problem{cells, 1.0, sides}.conditions(); }
 };
 
+/// What cuts links; `in_part`: half of the faces let a part of the flow through, the same on any number of ranks.
+struct Sheet {
+  Sheet(std::convertible_to<Cuts> auto links, bool partly = false) : cuts(links), in_part(partly) {}
+  Cuts cuts;
+  bool in_part;
+};
+
+inline void open_in_part(const grid::Grid& grid, std::vector<FaceIndex>& faces)
+{
+  for (FaceIndex& f : faces)
+    f.open = 0.99 * std::max(0.0, noise(grid, f));
+}
+
 /// Faces whose link between centres a sheet cuts, given in relative indices.
-inline std::vector<FaceIndex> blocked_links(const grid::Grid& grid, const Cuts& cuts)
+inline std::vector<FaceIndex> blocked_links(const grid::Grid& grid, const Sheet& sheet)
 {
   std::vector<FaceIndex> result;
   for_faces(grid, [&](const FaceIndex& f) {
@@ -75,13 +88,15 @@ inline std::vector<FaceIndex> blocked_links(const grid::Grid& grid, const Cuts& 
       high[a] = (f.cell[a] + 0.5) / grid.cells()[a];
       low[a] = high[a] - (a == f.axis ? 1.0 / grid.cells()[a] : 0.0);
     }
-    if (cuts(low, high))
+    if (sheet.cuts(low, high))
       result.push_back(f);
   });
+  if (sheet.in_part)
+    open_in_part(grid, result);
   return result;
 }
 
-/// Random fluxes; nothing through closed sides and blocked faces.
+/// Random fluxes; nothing through closed sides and faces.
 inline void set_random_fluxes(const CurvilinearProblem& problem, const grid::Grid& grid,
                               const std::vector<FaceIndex>& closed, Field3<double>& U)
 {
@@ -91,14 +106,15 @@ inline void set_random_fluxes(const CurvilinearProblem& problem, const grid::Gri
     U[f.axis].view()(f.cell) = wall ? 0.0 : area * noise(grid, f);
   });
   for (const FaceIndex& f : closed)
-    U[f.axis].view()(f.cell) = 0.0;
+    if (f.open == 0.0)
+      U[f.axis].view()(f.cell) = 0.0;
 }
 
-inline Projection project(const CurvilinearProblem& problem, const grid::Grid& grid, const Cuts& cuts,
+inline Projection project(const CurvilinearProblem& problem, const grid::Grid& grid, const Sheet& sheet,
                           const Target& target)
 {
   Projection result{make_field3<double>(grid.owned()), Field<double>(grid.owned()), {}};
-  const std::vector<FaceIndex> closed = blocked_links(grid, cuts);
+  const std::vector<FaceIndex> closed = blocked_links(grid, sheet);
   set_random_fluxes(problem, grid, closed, result.U);
   const auto solver = make_pressure_solver(grid, problem.conditions());
   solver->set_blocked(closed);
@@ -126,7 +142,7 @@ inline double curvilinear_divergence(const grid::Grid& grid, const Field3<double
 struct NamedCurvilinearCase {
   std::string name;
   CurvilinearProblem problem;
-  Cuts cuts;
+  Sheet sheet;
 };
 
 inline std::vector<NamedCurvilinearCase> curvilinear_cases()
@@ -143,6 +159,12 @@ inline std::vector<NamedCurvilinearCase> curvilinear_cases()
       {"waved, partly periodic, flag", {{25, 16, 21}, luff::test::Waved{}, "NDPPPP"}, flag},
       {"ring", {{32, 12, 10}, Ring{}, "PPNNND"}, flag},
       {"closed box inside", {{20, 20, 20}, Slid{}}, closed_box},
+      {"flag open in part", {{24, 20, 18}, Slid{}, "NDNNNN"}, {flag, true}},
+      {"left-handed, open in part", {{18, 20, 17}, luff::test::Mirrored<Slid>{}, "NNDNNN"}, {flag, true}},
+      {"strongly skewed pipe, orifice open in part", {{30, 20, 22}, BentPipe{0.9}, "NDNNNN"}, {orifice(0.1), true}},
+      {"waved, all periodic, open in part", {{15, 13, 9}, luff::test::Waved{}, "PPPPPP"}, {orifice(0.1), true}},
+      {"ring, all of a wall open in part", {{32, 12, 10}, Ring{}, "PPNNND"}, {orifice(-1.0), true}},
+      {"slab of one cell, open in part", {{24, 20, 1}, luff::test::Waved{}, "NDNNPP"}, {flag, true}},
       {"slab of one cell", {{24, 20, 1}, Slid{}, "NDNNNN"}, flag},
       {"periodic slab of one cell", {{24, 20, 1}, luff::test::Waved{}, "NDNNPP"}, flag},
   };

@@ -36,11 +36,11 @@ TEST(CurvilinearProjectionOnRanks, GivesTheAnswerOfOneRank)
     CurvilinearProblem shared = c.problem;
     shared.comm = MPI_COMM_WORLD;
     const grid::Grid grid = shared.grid();
-    const Projection together = project(shared, grid, c.cuts, tight);
+    const Projection together = project(shared, grid, c.sheet, tight);
     EXPECT_TRUE(together.report.converged) << c.name;
     EXPECT_LE(curvilinear_divergence(grid, together.U), 1e-13) << c.name;
     const grid::Grid alone = c.problem.grid();
-    const Projection single = project(c.problem, alone, c.cuts, tight);
+    const Projection single = project(c.problem, alone, c.sheet, tight);
     // Cells do not merge across the edges of blocks, so the hierarchies differ.
     EXPECT_NEAR(together.report.iterations, single.report.iterations, std::max(4.0, 0.2 * single.report.iterations))
         << c.name;
@@ -62,7 +62,7 @@ TEST(CurvilinearProjectionOnRanks, LeavesTheSameBitsOnBothSidesOfASharedFace)
     CurvilinearProblem shared = c.problem;
     shared.comm = MPI_COMM_WORLD;
     const grid::Grid grid = shared.grid();
-    Projection result = project(shared, grid, c.cuts, tight);
+    Projection result = project(shared, grid, c.sheet, tight);
     HaloExchange halo(grid.ranks());
     for (int a = 0; a < 3; ++a) {
       const Field<double> own = result.U[a];

@@ -19,7 +19,7 @@ using namespace test;
 /// A p = div F, by the fluxes that correct U.
 class Operator {
  public:
-  Operator(const CurvilinearProblem& problem, const test::Cuts& cuts)
+  Operator(const CurvilinearProblem& problem, const Sheet& sheet)
       : grid_(problem.grid()),
         conditions_(problem.conditions()),
         fluxes_(grid_, conditions_),
@@ -27,7 +27,7 @@ class Operator {
         p_(grid_.owned()),
         U_(make_field3<double>(grid_.owned()))
   {
-    fluxes_.set_blocked(blocked_links(grid_, cuts));
+    fluxes_.set_blocked(blocked_links(grid_, sheet));
   }
   [[nodiscard]] const grid::Grid& grid() const { return grid_; }
   [[nodiscard]] int size() const { return static_cast<int>(grid_.owned().volume()); }
@@ -72,7 +72,7 @@ Eigen::VectorXd random_vector(int n)
 TEST(CurvilinearOperator, IsSymmetricToRoundOff)
 {
   for (const NamedCurvilinearCase& c : curvilinear_cases()) {
-    Operator A(c.problem, c.cuts);
+    Operator A(c.problem, c.sheet);
     const Eigen::VectorXd x = random_vector(A.size());
     const Eigen::VectorXd y = random_vector(A.size());
     const Eigen::VectorXd Ax = A.apply(x);
@@ -88,15 +88,17 @@ TEST(CurvilinearOperator, IsPositiveSemiDefiniteWithOneNullVectorPerClosedCompon
   struct Case {
     std::string name;
     CurvilinearProblem problem;
-    test::Cuts cuts;
+    Sheet sheet;
     int components;
   };
-  for (const Case& c :
-       {Case{"pipe, valve", {{8, 7, 7}, BentPipe{0.9}}, orifice(0.2), 1},
-        Case{"pipe, closed valve", {{8, 7, 7}, BentPipe{0.9}}, orifice(-1.0), 2},
-        Case{"closed valve, outflow", {{8, 7, 7}, BentPipe{0.9}, "NDNNNN"}, orifice(-1.0), 1},
-        Case{"sheared", {{7, 7, 7}, Slid{0.25}}, flag, 1}, Case{"ring", {{8, 6, 5}, Ring{}, "PPNNNN"}, no_sheet, 1}}) {
-    Operator A(c.problem, c.cuts);
+  for (const Case& c : {Case{"pipe, valve", {{8, 7, 7}, BentPipe{0.9}}, orifice(0.2), 1},
+                        Case{"pipe, closed valve", {{8, 7, 7}, BentPipe{0.9}}, orifice(-1.0), 2},
+                        Case{"closed valve, outflow", {{8, 7, 7}, BentPipe{0.9}, "NDNNNN"}, orifice(-1.0), 1},
+                        Case{"sheared", {{7, 7, 7}, Slid{0.25}}, flag, 1},
+                        Case{"sheared, open in part", {{7, 7, 7}, Slid{0.25}}, {flag, true}, 1},
+                        Case{"pipe, closed valve open in part", {{8, 7, 7}, BentPipe{0.9}}, {orifice(-1.0), true}, 1},
+                        Case{"ring", {{8, 6, 5}, Ring{}, "PPNNNN"}, no_sheet, 1}}) {
+    Operator A(c.problem, c.sheet);
     const int n = A.size();
     Eigen::MatrixXd matrix(n, n);
     for (int m = 0; m < n; ++m)
@@ -114,7 +116,7 @@ TEST(CurvilinearOperator, IsPositiveSemiDefiniteWithOneNullVectorPerClosedCompon
 TEST(CurvilinearOperator, IsTheSameInSinglePrecision)
 {
   for (const NamedCurvilinearCase& c : curvilinear_cases()) {
-    Operator A(c.problem, c.cuts);
+    Operator A(c.problem, c.sheet);
     const Eigen::VectorXd x = random_vector(A.size());
     const Eigen::VectorXd expected = A.apply(x);
     const CurvilinearOperator& gradient = A.fluxes().gradient();
@@ -131,6 +133,7 @@ TEST(CurvilinearOperator, IsTheSameInSinglePrecision)
     CrossTerms cross(level);
     cross.load(A.grid().owned(), [&](int pair, const Index3& cell) { return gradient.cross()[pair](cell); });
     cross.close();
+    cross.set_partial_faces(A.fluxes().partial_faces());
     Values p(level.layout().size), q(level.layout().size);
     int n = 0;
     for_each_cell_in_order(A.grid().owned(),
@@ -159,7 +162,7 @@ TEST(CurvilinearMultigrid, IsASymmetricOperator)
   for (const NamedCurvilinearCase& c : curvilinear_cases()) {
     if (c.problem.sides[1] != 'D')
       continue;  // where no pressure is given, parts of the fluid have means of their own to remove
-    Operator A(c.problem, c.cuts);
+    Operator A(c.problem, c.sheet);
     const CurvilinearOperator& gradient = A.fluxes().gradient();
     Box box;
     for (int a = 0; a < 3; ++a)
@@ -174,8 +177,9 @@ TEST(CurvilinearMultigrid, IsASymmetricOperator)
     CrossTerms cross(multigrid.finest());
     cross.load(A.grid().owned(), [&](int pair, const Index3& cell) { return gradient.cross()[pair](cell); });
     cross.close();
+    cross.set_partial_faces(A.fluxes().partial_faces());
     multigrid.smooth_cross_terms(cross);
-    multigrid.set_blocked(blocked_links(A.grid(), c.cuts));
+    multigrid.set_blocked(blocked_links(A.grid(), c.sheet));
     const Layout& layout = multigrid.finest().layout();
     const auto apply = [&](const Eigen::VectorXd& x) {
       int n = 0;
@@ -206,23 +210,31 @@ TEST(CurvilinearProjection, IsThatOfAUniformGridWhereTheGridIsOne)
       straight.cells, [](const Vec3& s) { return Vec3(s[0], s[1] * 10.0 / 12.0, s[2] * 9.0 / 12.0); }, straight.sides};
   const grid::Grid curvilinear = same.grid();
   ASSERT_EQ(curvilinear.kind(), grid::Kind::Curvilinear);
-  const Projection a = project(straight, uniform, flag, tight);
-  Projection b{make_field3<double>(uniform.owned()), Field<double>(uniform.owned()), {}};
-  const auto closed = blocked(uniform, flag);
-  set_random_fluxes(straight, uniform, closed, b.U);
-  const auto solver = make_pressure_solver(curvilinear, same.conditions());
-  solver->set_blocked(closed);
-  EXPECT_TRUE(solver->project(views(b.U), b.p.view(), 0.1, tight).converged);
-  EXPECT_LE(difference(uniform, a.p, b.p), 1e-11 * largest(uniform, a.p));
-  for (int d = 0; d < 3; ++d)
-    EXPECT_LE(difference(uniform, a.U[d], b.U[d]), 1e-12 * largest(uniform, a.U[d]));
+  for (const bool in_part : {false, true}) {
+    auto closed = blocked(uniform, flag);
+    if (in_part)
+      open_in_part(uniform, closed);
+    const auto projected = [&](const grid::Grid& grid) {
+      Projection result{make_field3<double>(grid.owned()), Field<double>(grid.owned()), {}};
+      set_random_fluxes(straight, uniform, closed, result.U);
+      const auto solver = make_pressure_solver(grid, same.conditions());
+      solver->set_blocked(closed);
+      EXPECT_TRUE(solver->project(views(result.U), result.p.view(), 0.1, tight).converged);
+      return result;
+    };
+    const Projection a = projected(uniform);
+    const Projection b = projected(curvilinear);
+    EXPECT_LE(difference(uniform, a.p, b.p), 1e-11 * largest(uniform, a.p));
+    for (int d = 0; d < 3; ++d)
+      EXPECT_LE(difference(uniform, a.U[d], b.U[d]), 1e-12 * largest(uniform, a.U[d]));
+  }
 }
 
 TEST(CurvilinearProjection, LeavesNoDivergenceInAnyCell)
 {
   for (const NamedCurvilinearCase& c : curvilinear_cases()) {
     const grid::Grid grid = c.problem.grid();
-    const Projection projection = project(c.problem, grid, c.cuts, tight);
+    const Projection projection = project(c.problem, grid, c.sheet, tight);
     EXPECT_TRUE(projection.report.converged) << c.name << ' ' << projection.report.divergence;
     EXPECT_LE(curvilinear_divergence(grid, projection.U), 1e-13) << c.name;
     EXPECT_LE(projection.report.iterations, 60) << c.name;
@@ -233,9 +245,9 @@ TEST(CurvilinearProjection, CorrectsByTheGradientOfThePressureItReturns)
 {
   for (const NamedCurvilinearCase& c : curvilinear_cases()) {
     const grid::Grid grid = c.problem.grid();
-    Projection projection = project(c.problem, grid, c.cuts, tight);
+    Projection projection = project(c.problem, grid, c.sheet, tight);
     Field3<double> before = make_field3<double>(grid.owned());
-    const auto closed = blocked_links(grid, c.cuts);
+    const auto closed = blocked_links(grid, c.sheet);
     set_random_fluxes(c.problem, grid, closed, before);
     CurvilinearCorrection fluxes(grid, c.problem.conditions());
     fluxes.set_blocked(closed);
@@ -251,18 +263,20 @@ TEST(CurvilinearProjection, FindsAfterASheetMovedWhatAFreshSolverFinds)
   const CurvilinearProblem problem{{24, 20, 18}, Slid{}, "NDNNNN"};
   const grid::Grid grid = problem.grid();
   const auto solver = make_pressure_solver(grid, problem.conditions());
-  const auto solve = [&](PressureSolver& with, const test::Cuts& cuts) {
+  const auto solve = [&](PressureSolver& with, const Sheet& sheet) {
     Projection result{make_field3<double>(grid.owned()), Field<double>(grid.owned()), {}};
-    const auto closed = blocked_links(grid, cuts);
+    const auto closed = blocked_links(grid, sheet);
     set_random_fluxes(problem, grid, closed, result.U);
     with.set_blocked(closed);
     result.report = with.project(views(result.U), result.p.view(), 0.1, tight);
     return result;
   };
-  (void)solve(*solver, orifice(0.1));
-  const Projection moved = solve(*solver, flag);
-  const Projection fresh = project(problem, grid, flag, tight);
-  EXPECT_EQ(difference(grid, moved.p, fresh.p), 0.0);
+  for (const bool in_part : {false, true}) {
+    (void)solve(*solver, {orifice(0.1), in_part});
+    const Projection moved = solve(*solver, {flag, in_part});
+    const Projection fresh = project(problem, grid, {flag, in_part}, tight);
+    EXPECT_EQ(difference(grid, moved.p, fresh.p), 0.0);
+  }
 }
 
 TEST(CurvilinearProjection, GivesTheSameBitsOnOneAndTwoThreads)
