@@ -198,8 +198,6 @@ void state_case_rules(Schema& s, const Case& options)
   s.rule((flows && has_wall) || !options.output.walls, "output.walls",
          "must be left out without a side of type \"wall\": bodies have their stresses in output.shells");
   state_checkpoint_rules(s, options);
-  s.rule(options.immersed.edges == EdgeCover::Whole || !is_curvilinear(options.grid.kind), "immersed.edges",
-         "must be \"whole\" on curvilinear grids");
   state_names_rule(s, options);
   state_periodic_rule(s, options);
   state_skin_rule(s, options);

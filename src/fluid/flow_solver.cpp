@@ -382,7 +382,7 @@ void FlowSolver::add_cross_terms(const StageTime& time)
   for (std::size_t n = 0; n < links_.cells().size(); ++n) {
     const auto [i, j, k] = links_.cells()[n].cell;
     terms_[n].explicit_rate +=
-        options_.viscosity / grid_.volume(i, j, k) * cross_terms_->net_outflow(links_.cells()[n], u);
+        options_.viscosity / grid_.volume(i, j, k) * cross_terms_->net_outflow(links_, links_.cells()[n], u);
   }
 }
 

@@ -59,7 +59,7 @@ enum class ImmersedScheme {
 struct FlowOptions {
   TimeScheme scheme = TimeScheme::Rk3;
   ImmersedScheme immersed = ImmersedScheme::CutLink;
-  bool edges_cover_in_part = false;  ///< of faces at free edges (CutLinks); cut-link on uniform and rectilinear grids
+  bool edges_cover_in_part = false;  ///< of faces at free edges (CutLinks); cut-link only
   double density = 1.0;
   double viscosity = 0.0;                                               ///< kinematic [L^2/T]
   VectorFunction acceleration = VectorFunction::uniform(Vec3::Zero());  ///< body force per mass [L/T^2]

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
-
-#include "core/error.hpp"
 
 namespace luff::grid {
 
@@ -14,6 +13,8 @@ namespace {
 
 /// Points on the faces of cells are found in either; on sides, in spite of rounding.
 constexpr double tolerance = 1e-9;
+/// Distance from a side, in cells, up to which points stand on it.
+constexpr double on_side_below = 1e-6;
 
 using Corners = std::array<Vec3, 8>;
 
@@ -35,6 +36,15 @@ Vec3 weight_slope(int corner, const Vec3& s)
   return slope;
 }
 
+/// dx/ds
+Mat3 trilinear_slope(const Corners& corners, const Vec3& s)
+{
+  Mat3 J = Mat3::Zero();
+  for (int c = 0; c < 8; ++c)
+    J += corners[c] * weight_slope(c, s).transpose();
+  return J;
+}
+
 /// s with sum_c w_c(s) x_c = x, by Newton's method from the middle; none where it does not converge.
 std::optional<Vec3> invert_trilinear(const Corners& corners, const Vec3& x)
 {
@@ -42,12 +52,9 @@ std::optional<Vec3> invert_trilinear(const Corners& corners, const Vec3& x)
   Vec3 s = Vec3::Constant(0.5);
   for (int step = 0; step < most_steps; ++step) {
     Vec3 residual = x;
-    Mat3 J = Mat3::Zero();
-    for (int c = 0; c < 8; ++c) {
+    for (int c = 0; c < 8; ++c)
       residual -= weight_of(c, s) * corners[c];
-      J += corners[c] * weight_slope(c, s).transpose();
-    }
-    const Vec3 change = J.inverse() * residual;
+    const Vec3 change = trilinear_slope(corners, s).inverse() * residual;
     if (!change.allFinite())
       return std::nullopt;
     s += change;
@@ -106,18 +113,43 @@ Corners nodes_of(const Curvilinear& m, const Index3& c)
       c, [&](int i, int j, int k) { return Vec3(m.node[0](i, j, k), m.node[1](i, j, k), m.node[2](i, j, k)); });
 }
 
-/// Whether a cell may hold the point: it lies in the box of the cell's nodes, which is a little too large for faces
-/// that are curved.
-bool is_near(const Corners& nodes, const Vec3& x)
-{
-  Vec3 low = nodes[0];
-  Vec3 high = nodes[0];
-  for (const Vec3& node : nodes) {
-    low = low.cwiseMin(node);
-    high = high.cwiseMax(node);
+/// A box of space.
+struct Extent {
+  Vec3 low;
+  Vec3 high;
+
+  [[nodiscard]] bool touches(const Extent& other) const
+  {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
   }
-  const double rounding = tolerance * (high - low).norm();
-  return ((x - low).array() >= -rounding).all() && ((high - x).array() >= -rounding).all();
+  [[nodiscard]] bool holds(const Vec3& x) const { return touches({x, x}); }
+};
+
+/// The box around points.
+Extent extent_of(std::span<const Vec3> points)
+{
+  Extent box{points.front(), points.front()};
+  for (const Vec3& x : points) {
+    box.low = box.low.cwiseMin(x);
+    box.high = box.high.cwiseMax(x);
+  }
+  return box;
+}
+
+/// Around a cell, a little too large for faces that are curved.
+Extent extent_of_cell(const Corners& nodes)
+{
+  const Extent box = extent_of(nodes);
+  const Vec3 rounding = Vec3::Constant(tolerance * (box.high - box.low).norm());
+  return {box.low - rounding, box.high + rounding};
+}
+
+/// Where a point lies in a cell, 0 to 1 along each direction, if it does.
+std::optional<Vec3> place_in_cell(const Corners& nodes, const Vec3& x)
+{
+  const auto s = invert_trilinear(nodes, x);
+  const bool in_cell = s && (s->array() >= -tolerance).all() && (s->array() <= 1.0 + tolerance).all();
+  return in_cell ? s : std::nullopt;
 }
 
 struct Held {
@@ -130,10 +162,9 @@ std::optional<Held> cell_that_holds(const Grid& grid, const Curvilinear& m, cons
   std::optional<Held> held;
   for_each_cell_in_order(grid.owned(), [&](int i, int j, int k) {
     const Corners nodes = nodes_of(m, {i, j, k});
-    if (held || !is_near(nodes, x))
+    if (held || !extent_of_cell(nodes).holds(x))
       return;
-    const auto s = invert_trilinear(nodes, x);
-    if (s && (s->array() >= -tolerance).all() && (s->array() <= 1.0 + tolerance).all())
+    if (const auto s = place_in_cell(nodes, x))
       held = Held{{i, j, k}, *s};
   });
   return held;
@@ -184,13 +215,8 @@ class Bins {
  public:
   explicit Bins(std::span<const Vec3> points)
   {
-    low_ = points.front();
-    Vec3 high = points.front();
-    for (const Vec3& x : points) {
-      low_ = low_.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
-    const double size = (high - low_).maxCoeff();
+    extent_ = extent_of(points);
+    const double size = (extent_.high - extent_.low).maxCoeff();
     n_ = std::max(1, static_cast<int>(std::cbrt(double(points.size()))));
     per_length_ = size > 0.0 ? n_ / size : 0.0;
     bins_.resize(static_cast<std::size_t>(n_) * n_ * n_);
@@ -198,12 +224,14 @@ class Bins {
       bins_[number(place(points[p]))].push_back(static_cast<int>(p));
   }
 
-  /// visit(point) of every point in the boxes that the box from low to high touches.
+  /// visit(point) of every point in the boxes that `region` touches.
   template <class Visit>
-  void for_each_near(const Vec3& low, const Vec3& high, Visit visit) const
+  void for_each_near(const Extent& region, Visit visit) const
   {
-    const Index3 from = place(low);
-    const Index3 to = place(high);
+    if (!extent_.touches(region))
+      return;
+    const Index3 from = place(region.low);
+    const Index3 to = place(region.high);
     for (int k = from[2]; k <= to[2]; ++k)
       for (int j = from[1]; j <= to[1]; ++j)
         for (int i = from[0]; i <= to[0]; ++i)
@@ -216,7 +244,7 @@ class Bins {
   {
     Index3 box{};
     for (int a = 0; a < 3; ++a)
-      box[a] = static_cast<int>(std::clamp((x[a] - low_[a]) * per_length_, 0.0, n_ - 1.0));
+      box[a] = static_cast<int>(std::clamp((x[a] - extent_.low[a]) * per_length_, 0.0, n_ - 1.0));
     return box;
   }
   [[nodiscard]] std::size_t number(const Index3& box) const
@@ -224,7 +252,7 @@ class Bins {
     return box[0] + n_ * (box[1] + std::size_t(n_) * box[2]);
   }
 
-  Vec3 low_;
+  Extent extent_;
   int n_ = 1;
   double per_length_ = 0.0;
   std::vector<std::vector<int>> bins_;
@@ -233,21 +261,148 @@ class Bins {
 /// Bits of a standing: 0 inside, 1 + 2 axis + end on a side.
 using Bits = unsigned;
 
-Bits bits_in_cell(const Grid& grid, const Index3& cell, const Corners& nodes, const Vec3& x)
+Bits side_bit(int axis, int end)
 {
-  if (!is_near(nodes, x))
-    return 0;
-  const auto s = invert_trilinear(nodes, x);
-  if (!s || (s->array() < -tolerance).any() || (s->array() > 1.0 + tolerance).any())
-    return 0;
+  return 2U << (2 * axis + end);
+}
+
+Bits bits_at(const Grid& grid, const Index3& cell, const Vec3& s)
+{
   Bits bits = 1;
   for (int a = 0; a < 3; ++a) {
-    if (cell[a] == 0 && (*s)[a] <= tolerance)
-      bits |= 2U << 2 * a;
-    if (cell[a] + 1 == grid.cells()[a] && (*s)[a] >= 1.0 - tolerance)
-      bits |= 2U << (2 * a + 1);
+    if (cell[a] == 0 && s[a] <= on_side_below)
+      bits |= side_bit(a, 0);
+    if (cell[a] + 1 == grid.cells()[a] && s[a] >= 1.0 - on_side_below)
+      bits |= side_bit(a, 1);
   }
   return bits;
+}
+
+/// What is known of points in a curvilinear grid: bits, and the sums of ds/dx over the cells that hold a point, several
+/// on faces, with their number after the nine.
+struct Search {
+  static constexpr int stride = 10;
+  std::vector<Bits> bits;
+  std::vector<double> slopes;
+
+  explicit Search(std::size_t points) : bits(points, 0), slopes(stride * points, 0.0) {}
+  void add(int point, const Mat3& slope)
+  {
+    double* const sums = &slopes[stride * static_cast<std::size_t>(point)];
+    Eigen::Map<Mat3>(sums, 3, 3) += slope;
+    sums[stride - 1] += 1.0;
+  }
+  [[nodiscard]] Mat3 mean_slope(std::size_t point) const
+  {
+    const double* const sums = &slopes[stride * point];
+    return Eigen::Map<const Mat3>(sums, 3, 3) / sums[stride - 1];
+  }
+  /// Collects what all ranks found, the same bits on each.
+  void collect(MPI_Comm comm)
+  {
+    MPI_Allreduce(MPI_IN_PLACE, bits.data(), static_cast<int>(bits.size()), MPI_UNSIGNED, MPI_BOR, comm);
+    std::vector<double> of_all(slopes.size());
+    MPI_Reduce(slopes.data(), of_all.data(), static_cast<int>(slopes.size()), MPI_DOUBLE, MPI_SUM, 0, comm);
+    MPI_Bcast(of_all.data(), static_cast<int>(of_all.size()), MPI_DOUBLE, 0, comm);
+    slopes = std::move(of_all);
+  }
+};
+
+/// The owned cell whose centre is nearest to a point, on the one rank that has the nearest of all.  Collective.
+std::optional<Index3> nearest_cell(const Grid& grid, const Vec3& x)
+{
+  struct {
+    double distance = std::numeric_limits<double>::max();
+    int rank = 0;
+  } nearest;
+  nearest.rank = grid.ranks().rank();
+  Index3 cell{};
+  for_each_cell_in_order(grid.owned(), [&](int i, int j, int k) {
+    const double distance = (grid.centre(i, j, k) - x).norm();
+    if (distance < nearest.distance) {
+      nearest.distance = distance;
+      cell = {i, j, k};
+    }
+  });
+  MPI_Allreduce(MPI_IN_PLACE, &nearest, 1, MPI_DOUBLE_INT, MPI_MINLOC, grid.ranks().comm());
+  return nearest.rank == grid.ranks().rank() ? std::optional(cell) : std::nullopt;
+}
+
+/// Points that no cell holds take the slope in the middle of the nearest one.  Collective.
+void search_nearest_cells(const Grid& grid, const Curvilinear& m, std::span<const Vec3> points, Search& search)
+{
+  Search beside(points.size());
+  bool any = false;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    if (search.bits[p] != 0)
+      continue;
+    any = true;
+    if (const auto cell = nearest_cell(grid, points[p]))
+      beside.add(static_cast<int>(p), trilinear_slope(nodes_of(m, *cell), Vec3::Constant(0.5)).inverse());
+  }
+  if (!any)
+    return;
+  beside.collect(grid.ranks().comm());
+  for (std::size_t n = 0; n < search.slopes.size(); ++n)
+    search.slopes[n] += beside.slopes[n];
+}
+
+CellShape shape_of(const Mat3& slope)
+{
+  const Vec3 widths = slope.rowwise().norm().cwiseInverse();
+  return {.normals = widths.asDiagonal() * slope, .widths = widths};
+}
+
+std::vector<Standing> standings_in_curvilinear(const Grid& grid, const Curvilinear& m, std::span<const Vec3> points)
+{
+  Search search(points.size());
+  const Bins bins(points);
+  for_each_cell_in_order(grid.owned(), [&](int i, int j, int k) {
+    const Corners nodes = nodes_of(m, {i, j, k});
+    const Extent extent = extent_of_cell(nodes);
+    bins.for_each_near(extent, [&](int p) {
+      if (!extent.holds(points[p]))
+        return;
+      if (const auto s = place_in_cell(nodes, points[p])) {
+        search.bits[p] |= bits_at(grid, {i, j, k}, *s);
+        search.add(p, trilinear_slope(nodes, *s).inverse());
+      }
+    });
+  });
+  search.collect(grid.ranks().comm());
+  search_nearest_cells(grid, m, points, search);
+  std::vector<Standing> result(points.size());
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    result[p].inside = (search.bits[p] & 1U) != 0;
+    result[p].cell = shape_of(search.mean_slope(p));
+    for (int a = 0; a < 3; ++a)
+      for (int end = 0; end < 2; ++end) {
+        const bool on_seam = grid.ranks().periodic(a) && (search.bits[p] & side_bit(a, 1 - end)) != 0;
+        result[p].on_side[a][end] = (search.bits[p] & side_bit(a, end)) != 0 && !on_seam;
+      }
+  }
+  return result;
+}
+
+Standing standing_in_box(const Grid& grid, const Vec3& x)
+{
+  Standing result{.inside = true, .on_side = {}, .cell = {.normals = Mat3::Identity(), .widths = widths_at(grid, x)}};
+  for (int a = 0; a < 3; ++a)
+    for (const int end : {0, 1}) {
+      const double width = grid.width(a, end == 0 ? 0 : grid.cells()[a] - 1);
+      const double inwards = end == 0 ? x[a] - grid.faces(a).front() : grid.faces(a).back() - x[a];
+      result.inside = result.inside && inwards >= -tolerance * width;
+      result.on_side[a][end] = std::abs(inwards) <= on_side_below * width;
+    }
+  return result;
+}
+
+std::vector<Standing> standings_in_box(const Grid& grid, std::span<const Vec3> points)
+{
+  std::vector<Standing> result;
+  for (const Vec3& x : points)
+    result.push_back(standing_in_box(grid, x));
+  return result;
 }
 
 }  // namespace
@@ -279,37 +434,14 @@ std::optional<Location> locate(const Grid& grid, const Vec3& x)
 
 std::vector<Standing> standings(const Grid& grid, std::span<const Vec3> points)
 {
-  std::vector<Bits> bits(points.size(), 0);
   if (points.empty())
     return {};
-  const Bins bins(points);
-  grid.visit([&]<class Metric>(const Metric& m) {
+  return grid.visit([&]<class Metric>(const Metric& m) -> std::vector<Standing> {
     if constexpr (is_curvilinear<Metric>)
-      for_each_cell_in_order(grid.owned(), [&](int i, int j, int k) {
-        const Corners nodes = nodes_of(m, {i, j, k});
-        Vec3 low = nodes[0];
-        Vec3 high = nodes[0];
-        for (const Vec3& node : nodes) {
-          low = low.cwiseMin(node);
-          high = high.cwiseMax(node);
-        }
-        const Vec3 rounding = Vec3::Constant(tolerance * (high - low).norm());
-        bins.for_each_near(low - rounding, high + rounding, [&](int p) {
-          bits[p] |= bits_in_cell(grid, {i, j, k}, nodes, points[p]);
-        });
-      });
+      return standings_in_curvilinear(grid, m, points);
     else
-      ensure(false, "boxes tell by their coordinates where a point stands");
+      return standings_in_box(grid, points);
   });
-  MPI_Allreduce(MPI_IN_PLACE, bits.data(), static_cast<int>(bits.size()), MPI_UNSIGNED, MPI_BOR, grid.ranks().comm());
-  std::vector<Standing> result(points.size());
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    result[p].inside = (bits[p] & 1U) != 0;
-    for (int a = 0; a < 3; ++a)
-      for (int end = 0; end < 2; ++end)
-        result[p].on_side[a][end] = !grid.ranks().periodic(a) && (bits[p] >> (1 + 2 * a + end) & 1U) != 0;
-  }
-  return result;
 }
 
 }  // namespace luff::grid

@@ -33,13 +33,24 @@ struct Location {
 /// Widths of the cell around a place, of the nearest one where there is none.  Uniform and rectilinear grids.
 [[nodiscard]] Vec3 widths_at(const Grid& grid, const Vec3& x);
 
-/// Where a point stands: in the grid or outside, and on which sides, [axis][end], to 1e-9 of a cell.
+/// The cell around a place: the unit normals of its faces, in rows, and the widths across them [L].
+struct CellShape {
+  Mat3 normals = Mat3::Identity();
+  Vec3 widths = Vec3::Ones();
+
+  /// A vector in cells: the change of the three indices along it.
+  [[nodiscard]] Vec3 in_cells(const Vec3& v) const { return (normals * v).cwiseQuotient(widths); }
+};
+
+/// Where a point stands: in the grid or outside, on which sides, [axis][end], to 1e-6 of a cell, and in which cell, the
+/// nearest one outside.  A seam at which a ring closes is no side.
 struct Standing {
   bool inside = false;
   std::array<std::array<bool, 2>, 3> on_side{};
+  CellShape cell;
 };
 
-/// Of many points in a curvilinear grid, the same on every rank.  Collective.
+/// Of many points, the same on every rank.  Collective.
 [[nodiscard]] std::vector<Standing> standings(const Grid& grid, std::span<const Vec3> points);
 
 }  // namespace luff::grid

@@ -82,10 +82,13 @@ void CrossTerms::update(const CutLinks& links, const View3<const double>& u, con
     for (int b = 0; b < 3; ++b) {
       if (cut.face[2 * b] == open_link && cut.face[2 * b + 1] == open_link)
         continue;
-      const CutAxis along = cut_axis(grid_, links, cut, b, time);
-      const auto [low, high] = velocities_beside(links, cut, b, along, u, time);
-      const Vec3 across = 0.5 * (at(u, stepped(cut.cell, b, 1)) - at(u, stepped(cut.cell, b, -1)));
-      const Vec3 difference = along.difference(low, high) - across;
+      Vec3 difference = Vec3::Zero();
+      for (const LinkForm& form : LinkForms(links, cut, b)) {
+        const CutAxis along = cut_axis(grid_, links, cut, b, time, form.cut);
+        const auto [low, high] = velocities_beside(links, cut, b, along, u, time);
+        difference += form.weight * along.difference(low, high);
+      }
+      difference -= 0.5 * (at(u, stepped(cut.cell, b, 1)) - at(u, stepped(cut.cell, b, -1)));
       for (const int a : {(b + 1) % 3, (b + 2) % 3})
         change[a] += tensor(metric_, a, b, cut.cell) * difference;
     }
@@ -105,33 +108,35 @@ Vec3 CrossTerms::w(int axis, const Index3& cell, const View3<const double>& u) c
   return sum;
 }
 
-Vec3 CrossTerms::net_outflow(const CutCell& cut, const View3<const double>& u) const
+/// w_a of the cell beside a cut cell, or of itself beyond a side of the domain.
+Vec3 CrossTerms::w_beside(const CutCell& cut, int axis, int side, const View3<const double>& u) const
+{
+  const Index3 beside = stepped(cut.cell, axis, side == 0 ? -1 : 1);
+  return w(axis, beyond_domain(axis, beside) ? cut.cell : beside, u);
+}
+
+Vec3 CrossTerms::net_outflow(const CutLinks& links, const CutCell& cut, const View3<const double>& u) const
 {
   Vec3 net = Vec3::Zero();
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3 here = w(axis, cut.cell, u);
-    std::array<Vec3, 2> beside{here, here};
-    int open = 0;
-    for (int side = 0; side < 2; ++side) {
-      if (cut.face[2 * axis + side] != open_link)
-        continue;
-      ++open;
-      const Index3 c = stepped(cut.cell, axis, side == 0 ? -1 : 1);
-      if (!beyond_domain(axis, c))
-        beside[side] = w(axis, c, u);
+    for (const LinkForm& form : LinkForms(links, cut, axis)) {
+      const Vec3 low = form.cut[0] ? here : w_beside(cut, axis, 0, u);
+      const Vec3 high = form.cut[1] ? here : w_beside(cut, axis, 1, u);
+      net += form.weight * (form.any_cut() ? 1.0 : 0.5) * (high - low);
     }
-    net += (open == 2 ? 0.5 : 1.0) * (beside[1] - beside[0]);
   }
   return net;
 }
 
-Vec3 CrossTerms::at_wall(const CutCell& cut, int axis, int side, const View3<const double>& u) const
+Vec3 CrossTerms::at_wall(const CutLinks& links, const CutCell& cut, int axis, int side,
+                         const View3<const double>& u) const
 {
   const Vec3 here = w(axis, cut.cell, u);
-  const Index3 behind = stepped(cut.cell, axis, side == 0 ? 1 : -1);
-  if (cut.face[2 * axis + 1 - side] != open_link || beyond_domain(axis, behind))
+  const double closed_behind = cover(links, cut, axis, 1 - side);
+  if (closed_behind == 1.0)
     return here;
-  return 1.5 * here - 0.5 * w(axis, behind, u);
+  return closed_behind * here + (1.0 - closed_behind) * (1.5 * here - 0.5 * w_beside(cut, axis, 1 - side, u));
 }
 
 Vec3 CrossTerms::change_in_neighbour(const Index3& cell) const

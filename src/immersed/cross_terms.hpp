@@ -19,7 +19,8 @@ namespace luff::immersed {
 ///
 /// theta = 1 on open links, max(theta, theta_min) on cut ones: exact for linear flows.  The change of w_a acts on the
 /// cell itself and on its neighbours behind open links.  Through a cut face the cross flux is extrapolated,
-/// 3/2 w_a(P) - 1/2 w_a(W) with W the neighbour behind, w_a(P) where there is none.
+/// 3/2 w_a(P) - 1/2 w_a(W) with W the neighbour behind, w_a(P) where there is none.  A face that is covered in part
+/// counts as cut and as open in proportion (LinkForms).
 class CrossTerms {
  public:
   /// Collective.
@@ -31,9 +32,10 @@ class CrossTerms {
   void update(const CutLinks& links, const View3<const double>& u, const StageTime& time);
 
   /// Net outflow of the cross fluxes from a cut cell [L^2/T].
-  [[nodiscard]] Vec3 net_outflow(const CutCell& cut, const View3<const double>& u) const;
+  [[nodiscard]] Vec3 net_outflow(const CutLinks& links, const CutCell& cut, const View3<const double>& u) const;
   /// The cross flux through the cut face of a cell along an axis (side 0: its low face), towards increasing index.
-  [[nodiscard]] Vec3 at_wall(const CutCell& cut, int axis, int side, const View3<const double>& u) const;
+  [[nodiscard]] Vec3 at_wall(const CutLinks& links, const CutCell& cut, int axis, int side,
+                             const View3<const double>& u) const;
   /// Owned cells that are not cut, beside cut ones.
   [[nodiscard]] const std::vector<Index3>& neighbours() const { return neighbours_; }
   /// What must be added to the net outflow from one of them, for the cross terms of cut cells changed.
@@ -41,6 +43,7 @@ class CrossTerms {
 
  private:
   [[nodiscard]] Vec3 w(int axis, const Index3& cell, const View3<const double>& u) const;
+  [[nodiscard]] Vec3 w_beside(const CutCell& cut, int axis, int side, const View3<const double>& u) const;
   [[nodiscard]] bool beyond_domain(int axis, const Index3& cell) const;
 
   const grid::Grid& grid_;

@@ -32,12 +32,12 @@ Value between(const std::array<Value, 2>& value, const std::array<double, 2>& di
 
 /// Differences d_a per cell of a field beside a sheet whose normal flux sum_b G_ab d_b vanishes along the axes cut on
 /// both sides, where d_a is not known.
-Vec3 closed_differences(const grid::Curvilinear& metric, const CutCell& cut, const Vec3& known)
+Vec3 closed_differences(const grid::Curvilinear& metric, const CutLinks& links, const CutCell& cut, const Vec3& known)
 {
   Mat3 equations = Mat3::Identity();
   Vec3 right = known;
   for (int a = 0; a < 3; ++a)
-    if (cut.face[2 * a] != open_link && cut.face[2 * a + 1] != open_link) {
+    if (cover(links, cut, a, 0) == 1.0 && cover(links, cut, a, 1) == 1.0) {
       right[a] = 0.0;
       for (int b = 0; b < 3; ++b)
         equations(a, b) = metric.G[grid::symmetric(a, b)](cut.cell);
@@ -46,7 +46,7 @@ Vec3 closed_differences(const grid::Curvilinear& metric, const CutCell& cut, con
 }
 
 /// The gradient whose components across the faces of a cell are `slope`, d_a/h_a: sum_a slope_a S_a/|S_a|.
-Vec3 gradient_of_slopes(const grid::Grid& grid, const CutCell& cut, const Vec3& slope)
+Vec3 gradient_of_slopes(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, const Vec3& slope)
 {
   const grid::Curvilinear* const metric = curvilinear_metric(grid);
   if (metric == nullptr)
@@ -54,7 +54,7 @@ Vec3 gradient_of_slopes(const grid::Grid& grid, const CutCell& cut, const Vec3& 
   Vec3 width;
   for (int a = 0; a < 3; ++a)
     width[a] = width_across(grid, a, cut.cell);
-  const Vec3 difference = closed_differences(*metric, cut, slope.cwiseProduct(width));
+  const Vec3 difference = closed_differences(*metric, links, cut, slope.cwiseProduct(width));
   Vec3 gradient = Vec3::Zero();
   for (int a = 0; a < 3; ++a)
     gradient += difference[a] / width[a] * centre_area_vector(grid, a, cut.cell).normalized();
@@ -124,7 +124,7 @@ Vec3 pressure_gradient(const grid::Grid& grid, const CutLinks& links, const CutC
     if (known > 0.0)
       slope[axis] /= known;
   }
-  return gradient_of_slopes(grid, cut, slope);
+  return gradient_of_slopes(grid, links, cut, slope);
 }
 
 void recover_velocity(const grid::Grid& grid, const CutLinks& links, const View3<const double>& U,

@@ -106,23 +106,24 @@ int CutLinks::body_of(int triangle) const
 void CutLinks::find_crossings(std::span<const Vec3> positions)
 {
   cover_.clear();
-  if (!free_edges_.empty()) {
-    const FadingSheets sheets(grid_, positions, triangles_, free_edges_);
-    crossings_ = immersed::find_crossings(grid_, sheets.positions(), sheets.triangles());
-    cover_ = sheets.settle(crossings_);
+  if (free_edges_.empty()) {
+    crossings_ = hits_of(positions, triangles_);
     return;
   }
-  if (grid_.kind() != grid::Kind::Curvilinear) {
-    crossings_ = immersed::find_crossings(grid_, positions, triangles_);
-    return;
-  }
-  if (triangles_.empty()) {
-    crossings_.clear();
-    return;
-  }
+  const FadingSheets sheets(grid_, positions, triangles_, free_edges_);
+  crossings_ = hits_of(sheets.positions(), sheets.triangles());
+  cover_ = sheets.settle(crossings_);
+}
+
+std::vector<Crossing> CutLinks::hits_of(std::span<const Vec3> positions, std::span<const std::array<int, 3>> triangles)
+{
+  if (grid_.kind() != grid::Kind::Curvilinear)
+    return immersed::find_crossings(grid_, positions, triangles);
+  if (triangles.empty())
+    return {};
   if (!tree_)
     tree_ = make_link_tree(grid_);
-  crossings_ = tree_->find_crossings(positions, triangles_);
+  return tree_->find_crossings(positions, triangles);
 }
 
 void CutLinks::set_velocity(std::span<const Vec3> velocity)

@@ -207,6 +207,8 @@ class CutLinks {
 
  private:
   void find_crossings(std::span<const Vec3> positions);
+  [[nodiscard]] std::vector<Crossing> hits_of(std::span<const Vec3> positions,
+                                              std::span<const std::array<int, 3>> triangles);
   void interpolate_prediction(const SheetMotion& predicted);
   [[nodiscard]] double drift(int hit) const;
   void find_faces();

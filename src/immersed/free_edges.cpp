@@ -3,10 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 
-#include "grid/locate.hpp"
 #include "surface/topology.hpp"
 
 namespace luff::immersed {
@@ -17,10 +14,18 @@ namespace {
 constexpr double strip_width = 1.25;
 constexpr double whole_above = 0.95;
 constexpr double none_below = 0.001;
-/// Distance from a side of the domain, in parts of the cell's width there, up to which an edge lies in it.
-constexpr double in_side = 1e-6;
 /// Sharpest corner of an outline whose strips keep their width: cosine of half the angle that it turns by.
 constexpr double sharpest_corner = 0.5;
+
+/// Whether both ends of an edge stand on the same side of the domain.
+bool lies_in_side(const grid::Standing& from, const grid::Standing& to)
+{
+  for (int a = 0; a < 3; ++a)
+    for (int end = 0; end < 2; ++end)
+      if (from.on_side[a][end] && to.on_side[a][end])
+        return true;
+  return false;
+}
 
 /// Place on the segment from a to b nearest to x, as a part of it.
 double nearest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b)
@@ -56,27 +61,31 @@ FadingSheets::FadingSheets(const grid::Grid& grid, std::span<const Vec3> positio
       positions_(positions.begin(), positions.end()),
       triangles_(triangles.begin(), triangles.end())
 {
-  for (const FreeEdge& edge : edges)
-    if (!lies_in_side(edge))
-      edges_.push_back(edge);
+  keep_free(edges);
   add_strips();
 }
 
-Vec3 FadingSheets::cell_widths(const Vec3& x) const
+void FadingSheets::keep_free(std::span<const FreeEdge> edges)
 {
-  return grid::widths_at(grid_, x);
-}
-
-bool FadingSheets::lies_in_side(const FreeEdge& edge) const
-{
-  for (int d = 0; d < 3; ++d)
-    for (const int end : {0, grid_.cells()[d]}) {
-      const double near = in_side * grid_.width(d, end == 0 ? 0 : end - 1);
-      const double side = grid_.face(d, end);
-      if (std::abs(positions_[edge.from][d] - side) <= near && std::abs(positions_[edge.to][d] - side) <= near)
-        return true;
-    }
-  return false;
+  std::map<int, grid::Standing> standing_of;
+  for (const FreeEdge& edge : edges)
+    for (const int v : {edge.from, edge.to})
+      standing_of[v] = {};
+  std::vector<Vec3> points;
+  for (const auto& [v, unknown] : standing_of)
+    points.push_back(positions_[v]);
+  const std::vector<grid::Standing> standings = grid::standings(grid_, points);
+  for (auto next = standings.begin(); auto& [v, standing] : standing_of)
+    standing = *next++;
+  for (const FreeEdge& edge : edges) {
+    const grid::Standing& from = standing_of[edge.from];
+    const grid::Standing& to = standing_of[edge.to];
+    if (lies_in_side(from, to))
+      continue;
+    edges_.push_back(edge);
+    cell_at_[edge.from] = from.cell;
+    cell_at_[edge.to] = to.cell;
+  }
 }
 
 /// Unit vector in the plane of the edge's triangle, normal to the edge, away from the sheet.
@@ -100,7 +109,7 @@ void FadingSheets::add_strips()
     for (const Vec3& d : all)
       mean += d;
     mean.normalize();
-    const double cells_per_length = mean.cwiseQuotient(cell_widths(positions_[v])).norm();
+    const double cells_per_length = cell_at_.at(v).in_cells(mean).norm();
     const double corner = std::max(mean.dot(all.front()), sharpest_corner);
     const double width = cells_per_length > 0.0 ? strip_width / (cells_per_length * corner) : 0.0;
     beyond[v] = static_cast<int>(positions_.size());
@@ -114,21 +123,32 @@ void FadingSheets::add_strips()
   }
 }
 
+/// Distance in cells of x from a place on an edge: in those around x; on curvilinear grids, where no rank knows all
+/// cells, in those around the edge.
+double FadingSheets::cells_beyond(const FreeEdge& edge, double part, const Vec3& x) const
+{
+  const Vec3& from = positions_[edge.from];
+  const Vec3 beyond = x - from - part * (positions_[edge.to] - from);
+  if (grid_.kind() != grid::Kind::Curvilinear)
+    return beyond.cwiseQuotient(grid::widths_at(grid_, x)).norm();
+  const Vec3 at_from = cell_at_.at(edge.from).in_cells(beyond);
+  const Vec3 at_to = cell_at_.at(edge.to).in_cells(beyond);
+  return ((1.0 - part) * at_from + part * at_to).norm();
+}
+
 /// Moves a hit of a strip to the point of its edge nearest to it, and returns what it covers of its face.
 double FadingSheets::fade_out(Crossing& hit) const
 {
   const auto& [a, b, c] = triangles_[hit.triangle];
   const Vec3 x = hit.weights[0] * positions_[a] + hit.weights[1] * positions_[b] + hit.weights[2] * positions_[c];
   const FreeEdge& edge = edges_[edge_of_strip_[hit.triangle - sheet_triangles_]];
-  const Vec3& from = positions_[edge.from];
-  const Vec3& to = positions_[edge.to];
-  const double part = nearest_on_segment(x, from, to);
+  const double part = nearest_on_segment(x, positions_[edge.from], positions_[edge.to]);
   hit.triangle = edge.triangle;
   for (int m = 0; m < 3; ++m) {
     const int v = triangles_[edge.triangle][m];
     hit.weights[m] = v == edge.from ? 1.0 - part : v == edge.to ? part : 0.0;
   }
-  return cover_beyond_edge((x - from - part * (to - from)).cwiseQuotient(cell_widths(x)).norm());
+  return cover_beyond_edge(cells_beyond(edge, part, x));
 }
 
 std::vector<double> FadingSheets::settle(std::vector<Crossing>& hits) const

@@ -3,11 +3,12 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <span>
 #include <vector>
 
 #include "core/vec3.hpp"
-#include "grid/grid.hpp"
+#include "grid/locate.hpp"
 #include "immersed/crossings.hpp"
 
 namespace luff::immersed {
@@ -33,7 +34,7 @@ struct FreeEdge {
 /// Sheets at one instant, and the strips that continue them beyond their free edges.
 class FadingSheets {
  public:
-  /// Edges in a side of the domain are not free.  Uniform and rectilinear grids.
+  /// Edges in a side of the domain are not free.  Collective.
   FadingSheets(const grid::Grid& grid, std::span<const Vec3> positions, std::span<const std::array<int, 3>> triangles,
                std::span<const FreeEdge> edges);
 
@@ -47,16 +48,17 @@ class FadingSheets {
   [[nodiscard]] std::vector<double> settle(std::vector<Crossing>& hits) const;
 
  private:
-  [[nodiscard]] Vec3 cell_widths(const Vec3& x) const;
-  [[nodiscard]] bool lies_in_side(const FreeEdge& edge) const;
+  void keep_free(std::span<const FreeEdge> edges);
   [[nodiscard]] Vec3 outwards(const FreeEdge& edge) const;
   void add_strips();
   [[nodiscard]] bool is_of_strip(const Crossing& hit) const { return hit.triangle >= sheet_triangles_; }
+  [[nodiscard]] double cells_beyond(const FreeEdge& edge, double part, const Vec3& x) const;
   [[nodiscard]] double fade_out(Crossing& hit) const;
 
   const grid::Grid& grid_;
   int sheet_triangles_ = 0;
   std::vector<FreeEdge> edges_;
+  std::map<int, grid::CellShape> cell_at_;  ///< around the vertices of edges_
   std::vector<Vec3> positions_;
   std::vector<std::array<int, 3>> triangles_;
   std::vector<int> edge_of_strip_;  ///< of triangles_ beyond the sheets'

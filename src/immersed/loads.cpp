@@ -62,7 +62,7 @@ Vec3 wall_shear(const grid::Grid& grid, const CutLinks& links, const LoadFields&
   if (fields.cross == nullptr)
     return shear;
   const auto [i, j, k] = stepped(view.cut.cell, view.axis, side);
-  const Vec3 cross = fields.cross->at_wall(view.cut, view.axis, side, fields.u) / grid.area(view.axis, i, j, k);
+  const Vec3 cross = fields.cross->at_wall(links, view.cut, view.axis, side, fields.u) / grid.area(view.axis, i, j, k);
   return shear + (side == 1 ? -1.0 : 1.0) * fields.viscosity * cross;
 }
 

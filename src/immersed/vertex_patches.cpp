@@ -29,17 +29,6 @@ std::vector<std::vector<int>> neighbours(std::span<const std::array<int, 3>> tri
   return around;
 }
 
-/// A third of the triangles around each vertex.
-std::vector<double> areas(std::span<const Vec3> x, std::span<const std::array<int, 3>> triangles, int count)
-{
-  std::vector<double> area(count, 0.0);
-  for (const auto& [a, b, c] : triangles)
-    for (const int v : {a, b, c})
-      if (v < count)
-        area[v] += surface::area_vector(x[a], x[b], x[c]).norm() / 3.0;
-  return area;
-}
-
 /// J^-1 on the space in which J does not vanish.
 Mat3 pseudo_inverse(const Mat3& J)
 {
@@ -54,28 +43,53 @@ Mat3 pseudo_inverse(const Mat3& J)
 
 }  // namespace
 
-VertexPatches::VertexPatches(const grid::Grid& grid, std::span<const Vec3> positions,
-                             std::span<const std::array<int, 3>> triangles, int count)
+VertexPatches::VertexPatches(std::span<const std::array<int, 3>> triangles, int count)
+    : triangles_(triangles.begin(), triangles.end()), around_(neighbours(triangles, count))
 {
-  const std::vector<std::vector<int>> around = neighbours(triangles, count);
-  const std::vector<double> area = areas(positions, triangles, count);
+}
+
+void VertexPatches::update(const grid::Grid& grid, std::span<const Vec3> positions)
+{
+  patches_.clear();
+  members_.clear();
+  const int count = static_cast<int>(around_.size());
+  const std::vector<grid::Standing> standings = grid::standings(grid, positions.first(count));
+  std::vector<double> area;  // once there is a patch
   std::vector<int> seen_from(count, -1);
   for (int v = 0; v < count; ++v) {
-    const Vec3 per_cell = grid::widths_at(grid, positions[v]).cwiseInverse();
-    std::vector<Member> members{{v, area[v], Vec3::Zero()}};
+    const grid::CellShape& cell = standings[v].cell;
+    const Vec3 per_cell = cell.widths.cwiseInverse();
+    std::vector<Member> members{{v, 1.0, Vec3::Zero()}};
     seen_from[v] = v;
     for (std::size_t m = 0; m < members.size(); ++m)  // outwards along edges, as far as they reach
-      for (const int w : around[members[m].vertex]) {
+      for (const int w : around_[members[m].vertex]) {
         if (seen_from[w] == v)
           continue;
         seen_from[w] = v;
-        const double q = (positions[w] - positions[v]).cwiseProduct(per_cell).norm();
+        const double q = (cell.normals * (positions[w] - positions[v])).cwiseProduct(per_cell).norm();
         if (q < reach)
-          members.push_back({w, area[w] * (1.0 - q / reach), Vec3::Zero()});
+          members.push_back({w, 1.0 - q / reach, Vec3::Zero()});
       }
-    if (members.size() > 1)
-      add_patch(v, members, positions);
+    if (members.size() == 1)
+      continue;
+    if (area.empty())
+      area = areas(positions);
+    for (Member& m : members)
+      m.weight *= area[m.vertex];
+    add_patch(v, members, positions);
   }
+}
+
+/// A third of the triangles around each vertex.
+std::vector<double> VertexPatches::areas(std::span<const Vec3> x) const
+{
+  const int count = static_cast<int>(around_.size());
+  std::vector<double> area(count, 0.0);
+  for (const auto& [a, b, c] : triangles_)
+    for (const int v : {a, b, c})
+      if (v < count)
+        area[v] += surface::area_vector(x[a], x[b], x[c]).norm() / 3.0;
+  return area;
 }
 
 void VertexPatches::add_patch(int vertex, const std::vector<Member>& members, std::span<const Vec3> positions)

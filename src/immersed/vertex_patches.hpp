@@ -28,9 +28,11 @@ namespace luff::immersed {
 class VertexPatches {
  public:
   VertexPatches() = default;
-  /// Around the first `count` vertices.  Uniform and rectilinear grids.
-  VertexPatches(const grid::Grid& grid, std::span<const Vec3> positions, std::span<const std::array<int, 3>> triangles,
-                int count);
+  /// None until update(): around the first `count` vertices of the triangles.
+  VertexPatches(std::span<const std::array<int, 3>> triangles, int count);
+
+  /// Finds the patches around vertices that are here now.  Collective.
+  void update(const grid::Grid& grid, std::span<const Vec3> positions);
 
   /// Whether any patch has more than one vertex.
   [[nodiscard]] bool any() const { return !patches_.empty(); }
@@ -52,9 +54,12 @@ class VertexPatches {
     Vec3 arm;      ///< r
     Mat3 inverse;  ///< W J^-1
   };
+  [[nodiscard]] std::vector<double> areas(std::span<const Vec3> positions) const;
   void add_patch(int vertex, const std::vector<Member>& members, std::span<const Vec3> positions);
   void spread(std::vector<Vec3>& forces) const;
 
+  std::vector<std::array<int, 3>> triangles_;
+  std::vector<std::vector<int>> around_;  ///< of each vertex with a patch: others that share a triangle with it
   std::vector<Patch> patches_;
   std::vector<Member> members_;
 };

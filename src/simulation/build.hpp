@@ -40,7 +40,7 @@ struct LoadedShell {
 [[nodiscard]] std::unique_ptr<grid::Grid> build_grid(MPI_Comm comm, const config::Case& options);
 /// Collective.
 [[nodiscard]] std::unique_ptr<Surroundings> build_surroundings(MPI_Comm comm, const config::Case& options,
-                                                               int shell_vertices);
+                                                               const Structure& structure);
 
 [[nodiscard]] coupling::AccelerationOptions build_acceleration(const config::CouplingOptions& options);
 [[nodiscard]] CouplingPolicy build_policy(const config::CouplingOptions& options);

@@ -129,7 +129,7 @@ std::unique_ptr<grid::Grid> build_grid(MPI_Comm comm, const config::Case& option
                      [&] { return std::make_unique<grid::Grid>(comm, std::move(coordinates), periodic); });
 }
 
-std::unique_ptr<Surroundings> build_surroundings(MPI_Comm comm, const config::Case& options, int shell_vertices)
+std::unique_ptr<Surroundings> build_surroundings(MPI_Comm comm, const config::Case& options, const Structure& structure)
 {
   if (!options.fluid)
     return std::make_unique<Surroundings>();
@@ -142,7 +142,8 @@ std::unique_ptr<Surroundings> build_surroundings(MPI_Comm comm, const config::Ca
       *grid, flow_options(options), boundaries,
       poisson::make_pressure_solver(*grid, fluid::pressure_conditions(boundaries), solver));
   flow->start(function_of(options.fluid->initial.velocity), 0.0);
-  return std::make_unique<Flow>(std::move(grid), std::move(flow), shell_vertices);
+  return std::make_unique<Flow>(std::move(grid), std::move(flow),
+                                immersed::VertexPatches(structure.triangles(), structure.shell_vertices()));
 }
 
 }  // namespace luff::simulation

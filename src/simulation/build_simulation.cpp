@@ -39,7 +39,7 @@ std::unique_ptr<Simulation> build_simulation(MPI_Comm comm, const config::Case& 
 {
   auto structure = build_structure(options);
   check_sheets_inside(options, *structure);
-  auto surroundings = build_surroundings(comm, options, structure->shell_vertices());
+  auto surroundings = build_surroundings(comm, options, *structure);
   if (auto* flow = surroundings->flow()) {
     check_sheets_inside(flow->grid(), options, *structure);
     check_output(flow->grid(), options.output, *structure);

@@ -43,8 +43,8 @@ void require_inside(const Reach& reach, const immersed::SheetMotion& sheets, con
 
 }  // namespace
 
-Flow::Flow(std::unique_ptr<grid::Grid> grid, std::unique_ptr<fluid::FlowSolver> solver, int shell_vertices)
-    : grid_(std::move(grid)), solver_(std::move(solver)), reach_(reach_of(*grid_)), shell_vertices_(shell_vertices)
+Flow::Flow(std::unique_ptr<grid::Grid> grid, std::unique_ptr<fluid::FlowSolver> solver, immersed::VertexPatches patches)
+    : grid_(std::move(grid)), solver_(std::move(solver)), reach_(reach_of(*grid_)), patches_(std::move(patches))
 {
 }
 
@@ -52,8 +52,7 @@ void Flow::begin_step(const TimeStep& step, const immersed::SheetMotion& predict
 {
   require_inside(reach_, predicted, step);
   report_ = {};
-  if (grid_->kind() != grid::Kind::Curvilinear)
-    patches_ = {*grid_, predicted.position, predicted.triangles, shell_vertices_};
+  patches_.update(*grid_, predicted.position);
   immersed::SheetMotion seen = predicted;
   seen.velocity = patches_.seen(predicted.velocity);
   seen.acceleration = patches_.seen(predicted.acceleration);

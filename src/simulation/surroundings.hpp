@@ -47,9 +47,9 @@ struct Reach {
 
 class Flow : public Surroundings {
  public:
-  /// The first `shell_vertices` vertices are those of shells.  Throws RunError in begin_step() when a sheet leaves the
-  /// box around the grid.  Collective.
-  Flow(std::unique_ptr<grid::Grid> grid, std::unique_ptr<fluid::FlowSolver> solver, int shell_vertices);
+  /// `patches`: around the vertices of shells.  Throws RunError in begin_step() when a sheet leaves the box around the
+  /// grid.  Collective.
+  Flow(std::unique_ptr<grid::Grid> grid, std::unique_ptr<fluid::FlowSolver> solver, immersed::VertexPatches patches);
   [[nodiscard]] StepRates step_rates() const override
   {
     return {solver_->convective_rate(), solver_->diffusive_rate(), fluid::step_limits(solver_->options().scheme)};
@@ -65,7 +65,6 @@ class Flow : public Surroundings {
   std::unique_ptr<grid::Grid> grid_;
   std::unique_ptr<fluid::FlowSolver> solver_;
   Reach reach_;
-  int shell_vertices_;
   immersed::VertexPatches patches_;  ///< of this step
   FlowReport report_;
 };

@@ -103,14 +103,6 @@ TEST(GridOptions, NameTheSidesOfCurvilinearGridsByTheirIndexDirections)
       "case.toml:17: boundary.eta_max is not a key of [boundary] (known: x_min, x_max, y_min, y_max, z_min, z_max)");
 }
 
-TEST(GridOptions, OfCurvilinearGridsRefuseEdgesThatCoverInPart)
-{
-  const std::string text = flow_in(pipe) + "[immersed]\nedges = \"partial\"\n";
-  EXPECT_NE(complaint_about(text).find("immersed.edges = \"partial\" must be \"whole\" on curvilinear grids"),
-            std::string::npos)
-      << complaint_about(text);
-}
-
 TEST(GridOptions, RefuseKeysOfAnotherKind)
 {
   EXPECT_EQ(complaint_about(flow_in(pipe + "\naround = 8")),

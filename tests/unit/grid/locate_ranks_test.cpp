@@ -114,5 +114,57 @@ TEST(Standings, TellPointsInsideOnSidesAndOutside)
   EXPECT_FALSE(standing[4].inside);
 }
 
+/// Middle and mean edges of a cell of a map.
+template <class Map>
+std::pair<Vec3, Mat3> middle_and_edges(const Map& map, const Index3& cells, const Index3& cell)
+{
+  Vec3 middle = Vec3::Zero();
+  Mat3 edges = Mat3::Zero();
+  for (int c = 0; c < 8; ++c) {
+    Vec3 s;
+    for (int a = 0; a < 3; ++a)
+      s[a] = static_cast<double>(cell[a] + (c >> a & 1)) / cells[a];
+    middle += map(s) / 8.0;
+    for (int a = 0; a < 3; ++a)
+      edges.col(a) += ((c >> a & 1) == 1 ? 0.25 : -0.25) * map(s);
+  }
+  return {middle, edges};
+}
+
+/// The edges of a cell are one cell long, along their own direction; also for points beyond the last cell.
+TEST(Standings, KnowTheShapeOfTheCellsAround)
+{
+  const Index3 cells{9, 8, 10};
+  const test::Waved map{.amplitude = 0.08};
+  const Grid grid(MPI_COMM_WORLD, cells, test::mapped_nodes(cells, map), {});
+  for (int n = 0; n < 8; ++n) {
+    const auto [middle, edges] = middle_and_edges(map, cells, {n, 7 - n, n + 1});
+    const auto [last, edges_of_last] = middle_and_edges(map, cells, {8, 7 - n, n + 1});
+    const std::vector<Standing> standing = standings(grid, std::vector{middle, Vec3(last + Vec3(0.13, 0.0, 0.0))});
+    EXPECT_TRUE(standing[0].inside);
+    EXPECT_FALSE(standing[1].inside);
+    for (int a = 0; a < 3; ++a) {
+      EXPECT_LE((standing[0].cell.in_cells(edges.col(a)) - Vec3::Unit(a)).norm(), 1e-12);
+      EXPECT_LE((standing[1].cell.in_cells(edges_of_last.col(a)) - Vec3::Unit(a)).norm(), 1e-12);
+    }
+  }
+}
+
+/// A ring closes where it has no side; the two ends of other periodic axes are sides.
+TEST(Standings, TellPeriodicSidesFromTheSeamOfARing)
+{
+  const Index3 cells{16, 4, 4};
+  const auto ring = [](const Vec3& s) {
+    const double angle = 2.0 * M_PI * s[0];
+    return Vec3((1.0 + s[1]) * std::cos(angle), (1.0 + s[1]) * std::sin(angle), s[2]);
+  };
+  const Grid grid(MPI_COMM_WORLD, cells, test::mapped_nodes(cells, ring), {true, false, true});
+  const std::vector<Standing> standing = standings(grid, std::vector{Vec3(1.3, 0.0, 0.4), Vec3(1.3, 0.0, 1.0)});
+  const auto none = std::array<std::array<bool, 2>, 3>{};
+  EXPECT_TRUE(standing[0].inside && standing[0].on_side == none);
+  EXPECT_TRUE(standing[1].inside && standing[1].on_side[2][1] && !standing[1].on_side[2][0]);
+  EXPECT_NEAR(standing[0].cell.in_cells({0.0, 0.0, 0.25})[2], 1.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace luff::grid

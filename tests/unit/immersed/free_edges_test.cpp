@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "immersed/link_tree.hpp"
+#include "support/curvilinear.hpp"
 #include "support/faces.hpp"
 #include "surface/generators.hpp"
 #include "surface/mesh.hpp"
@@ -45,7 +47,11 @@ struct Settled {
 Settled settled(const grid::Grid& grid, const TriangleMesh& mesh)
 {
   const FadingSheets sheets(grid, mesh.vertices, mesh.triangles, free_edges(mesh.triangles));
-  Settled result{find_crossings(grid, sheets.positions(), sheets.triangles()), {}};
+  Settled result;
+  if (grid.kind() == grid::Kind::Curvilinear)
+    result.hits = make_link_tree(grid)->find_crossings(sheets.positions(), sheets.triangles());
+  else
+    result.hits = find_crossings(grid, sheets.positions(), sheets.triangles());
   result.covers = sheets.settle(result.hits);
   return result;
 }
@@ -183,6 +189,102 @@ TEST(FreeEdges, OfSheetsThatMeetLeaveNothingOpen)
     EXPECT_EQ(sheets.hits.size(), 18U * 22U);
     EXPECT_EQ(sheets.covered(), 18.0 * 22.0);
   }
+}
+
+/// Three sheets with corners, inside a box and up to its sides.
+std::vector<TriangleMesh> sheets_in_a_box()
+{
+  return {surface::rectangle(
+              {.origin = {0.203, 0.313, 0.21}, .a = {0.5, 0.4, 0.1}, .b = {0.0, 0.1, 0.43}, .divisions = {17, 13}}),
+          surface::rectangle(
+              {.origin = {0.43, 0.21, 0.0}, .a = {0.1, 0.52, 0.0}, .b = {0.0, 0.0, 1.0}, .divisions = {9, 15}}),
+          surface::rectangle({.origin = {0.31, 0.27, 0.33},
+                              .a = {0.43, 0.0, 0.12},
+                              .b = {0.0, 0.41, 0.22},
+                              .divisions = {11, 7},
+                              .pattern = surface::Pattern::Irregular})};
+}
+
+TEST(FreeEdges, InABoxGivenByItsNodesCoverWhatTheyCoverOnTheCartesianGrid)
+{
+  const Index3 cells{20, 18, 22};
+  std::array<std::vector<double>, 3> faces;
+  for (int a = 0; a < 3; ++a)
+    faces[a] = test::stretched_faces(0, 1, cells[a], 0.0);
+  for (const bool periodic : {false, true}) {
+    const std::array<bool, 3> wrap{false, false, periodic};
+    const grid::Grid box(MPI_COMM_SELF, faces, wrap);
+    const grid::Grid nodes(MPI_COMM_SELF, cells, test::mapped_nodes(cells, [](const Vec3& s) { return s; }), wrap);
+    ASSERT_EQ(nodes.kind(), grid::Kind::Curvilinear);
+    for (const TriangleMesh& mesh : sheets_in_a_box()) {
+      const Settled expected = settled(box, mesh);
+      const Settled sheet = settled(nodes, mesh);
+      ASSERT_EQ(sheet.hits.size(), expected.hits.size());
+      ASSERT_GT(sheet.covered(), 0.0);
+      EXPECT_LT(sheet.covered(), static_cast<double>(sheet.hits.size()) - 5.0);
+      for (std::size_t q = 0; q < sheet.hits.size(); ++q) {
+        EXPECT_EQ(sheet.hits[q].axis, expected.hits[q].axis);
+        EXPECT_EQ(sheet.hits[q].cell, expected.hits[q].cell);
+        EXPECT_EQ(sheet.hits[q].triangle, expected.hits[q].triangle);
+        EXPECT_NEAR(sheet.covers[q], expected.covers[q], 1e-12);
+      }
+    }
+  }
+}
+
+/// All cells alike and oblique: the distance from the edge is that in index coordinates.
+TEST(FreeEdges, FadeOutOverOneCellOfAnObliqueGrid)
+{
+  const Index3 cells{20, 18, 22};
+  Mat3 map;
+  map << 1.0, 0.5, 0.0, 0.2, 1.0, 0.3, -0.4, 0.0, 1.0;
+  const auto oblique = [&](const Vec3& s) -> Vec3 { return map * s; };
+  const grid::Grid grid(MPI_COMM_SELF, cells, test::mapped_nodes(cells, oblique), {});
+  const Mat3 to_cells = Vec3(20.0, 18.0, 22.0).asDiagonal() * map.inverse();
+  TriangleMesh mesh = surface::rectangle(
+      {.origin = {0.203, 0.313, 0.31}, .a = {0.5, 0.4, 0.1}, .b = {0.0, 0.1, 0.43}, .divisions = {17, 13}});
+  for (Vec3& x : mesh.vertices)
+    x = map * x;
+  const Settled sheet = settled(grid, mesh);
+  int in_part = 0;
+  for (std::size_t q = 0; q < sheet.hits.size(); ++q) {
+    const Crossing& hit = sheet.hits[q];
+    Vec3 place = Vec3::Zero();
+    for (int m = 0; m < 3; ++m)
+      place += hit.weights[m] * mesh.vertices[mesh.triangles[hit.triangle][m]];
+    const Vec3 low = grid.centre(stepped(hit.cell, hit.axis, -1));
+    const Vec3 on_link = low + hit.theta * (grid.centre(hit.cell) - low);
+    EXPECT_NEAR(sheet.covers[q], cover_beyond_edge((to_cells * (on_link - place)).norm()), 1e-12);
+    in_part += sheet.covers[q] < 1.0 ? 1 : 0;
+  }
+  EXPECT_GT(in_part, 50);
+}
+
+/// As on a straight slab, the sides along z being periodic.
+TEST(FreeEdges, AreNoneInASideOfAWavedSlab)
+{
+  const Index3 cells{20, 20, 1};
+  const auto waved = [](const Vec3& s) {
+    const Vec3 x = test::Waved{.amplitude = 0.04}({s[0], s[1], 0.0});
+    return Vec3(x[0], x[1], 0.05 * s[2]);
+  };
+  const grid::Grid grid(MPI_COMM_SELF, cells, test::mapped_nodes(cells, waved), {false, false, true});
+  const TriangleMesh mesh = surface::rectangle(
+      {.origin = {0.23, 0.32, 0.0}, .a = {0.5, 0.4, 0.0}, .b = {0.0, 0.0, 0.05}, .divisions = {17, 1}});
+  const Settled sheet = settled(grid, mesh);
+  const double length = std::hypot(0.5, 0.4);
+  int at_start = 0;
+  int at_end = 0;
+  for (std::size_t q = 0; q < sheet.hits.size(); ++q) {
+    if (sheet.covers[q] == 1.0)
+      continue;
+    const Vec3& x = mesh.vertices[mesh.triangles[sheet.hits[q].triangle][0]];
+    const double along = (x - Vec3(0.23, 0.32, x[2])).norm();
+    EXPECT_TRUE(along < 0.15 || along > length - 0.15);
+    (along < 0.15 ? at_start : at_end) += 1;
+  }
+  EXPECT_GT(at_start, 0);
+  EXPECT_GT(at_end, 0);
 }
 
 }  // namespace

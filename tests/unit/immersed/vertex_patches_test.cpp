@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "immersed/vertex_patches.hpp"
+#include "support/curvilinear.hpp"
 #include "surface/generators.hpp"
 
 namespace luff::immersed {
@@ -17,6 +18,13 @@ grid::Grid box_of(const Index3& cells)
     for (int i = 0; i <= cells[a]; ++i)
       faces[a].push_back(-1.0 + 2.0 * i / cells[a]);
   return {MPI_COMM_SELF, std::move(faces), {false, false, false}};
+}
+
+/// The same box, its inside waved.
+grid::Grid waved_box_of(const Index3& cells)
+{
+  const auto map = [](const Vec3& s) -> Vec3 { return 2.0 * test::Waved{.amplitude = 0.1}(s)-Vec3::Ones(); };
+  return {MPI_COMM_SELF, cells, test::mapped_nodes(cells, map), {false, false, false}};
 }
 
 /// A bowl, finer than the grid, and not evenly so.
@@ -43,12 +51,13 @@ std::vector<Vec3> random_vectors(std::size_t count)
 
 VertexPatches patches_of(const grid::Grid& grid, const surface::TriangleMesh& mesh)
 {
-  return {grid, mesh.vertices, mesh.triangles, mesh.n_vertices()};
+  VertexPatches patches(mesh.triangles, mesh.n_vertices());
+  patches.update(grid, mesh.vertices);
+  return patches;
 }
 
-TEST(VertexPatches, KeepForceMomentAndWork)
+void expect_force_moment_and_work_kept(const grid::Grid& grid)
 {
-  const grid::Grid grid = box_of({10, 12, 8});
   const surface::TriangleMesh mesh = bowl(23);
   const VertexPatches patches = patches_of(grid, mesh);
   ASSERT_TRUE(patches.any());
@@ -73,9 +82,43 @@ TEST(VertexPatches, KeepForceMomentAndWork)
   EXPECT_LE(std::abs(work), 1e-15 * size);
 }
 
-TEST(VertexPatches, LetTheFlowSeeRigidMotionsAsTheyAre)
+TEST(VertexPatches, KeepForceMomentAndWork)
 {
-  const grid::Grid grid = box_of({10, 12, 8});
+  expect_force_moment_and_work_kept(box_of({10, 12, 8}));
+  expect_force_moment_and_work_kept(waved_box_of({10, 12, 8}));
+}
+
+/// Where no vertex lies on the edge of what another reaches.
+TEST(VertexPatches, InABoxGivenByItsNodesAreThoseOfTheCartesianGrid)
+{
+  const Index3 cells{10, 12, 8};
+  const auto map = [](const Vec3& s) -> Vec3 { return 2.0 * s - Vec3::Ones(); };
+  const grid::Grid nodes(MPI_COMM_SELF, cells, test::mapped_nodes(cells, map), {false, false, false});
+  ASSERT_EQ(nodes.kind(), grid::Kind::Curvilinear);
+  surface::TriangleMesh mesh = bowl(23);
+  mesh.vertices[7] += Vec3(-0.9, 0.0, 0.0);  // outside: the nearest cell counts
+  const std::vector<Vec3> force = random_vectors(mesh.vertices.size());
+  const std::vector<Vec3> expected = patches_of(box_of(cells), mesh).spread({force, force}).minus;
+  const std::vector<Vec3> spread = patches_of(nodes, mesh).spread({force, force}).minus;
+  for (std::size_t v = 0; v < force.size(); ++v)
+    EXPECT_LE((spread[v] - expected[v]).norm(), 1e-12) << v;
+}
+
+/// Patches are found anew where the vertices have moved to.
+TEST(VertexPatches, FollowTheVertices)
+{
+  const grid::Grid grid = waved_box_of({10, 12, 8});
+  surface::TriangleMesh mesh = bowl(23);
+  VertexPatches patches = patches_of(grid, mesh);
+  for (Vec3& x : mesh.vertices)
+    x += Vec3(0.11, -0.07, 0.05);
+  patches.update(grid, mesh.vertices);
+  const std::vector<Vec3> force = random_vectors(mesh.vertices.size());
+  EXPECT_EQ(patches.spread({force, force}).plus, patches_of(grid, mesh).spread({force, force}).plus);
+}
+
+void expect_rigid_motions_seen(const grid::Grid& grid)
+{
   // The second is a strip one triangle wide whose rims are further apart than cells: its patches are lines.
   for (const surface::TriangleMesh& mesh : {bowl(23), surface::rectangle({.origin = Vec3(-0.8, 0.1, -0.5),
                                                       .a = Vec3(1.5, 0.2, 0.0),
@@ -90,6 +133,12 @@ TEST(VertexPatches, LetTheFlowSeeRigidMotionsAsTheyAre)
     for (std::size_t v = 0; v < u.size(); ++v)
       EXPECT_LE((seen[v] - u[v]).norm(), 2e-14) << v;
   }
+}
+
+TEST(VertexPatches, LetTheFlowSeeRigidMotionsAsTheyAre)
+{
+  expect_rigid_motions_seen(box_of({10, 12, 8}));
+  expect_rigid_motions_seen(waved_box_of({10, 12, 8}));
 }
 
 TEST(VertexPatches, AreNoneWhereTheMeshIsNoFinerThanTheGrid)
