@@ -308,43 +308,52 @@ struct Search {
   }
 };
 
-/// The owned cell whose centre is nearest to a point, on the one rank that has the nearest of all.  Collective.
-std::optional<Index3> nearest_cell(const Grid& grid, const Vec3& x)
+/// The cells whose centres are nearest to points, each on the one rank that has the nearest of all.  Collective.
+std::vector<std::optional<Index3>> nearest_cells(const Grid& grid, std::span<const Vec3> points)
 {
-  struct {
+  struct Nearest {
     double distance = std::numeric_limits<double>::max();
     int rank = 0;
-  } nearest;
-  nearest.rank = grid.ranks().rank();
-  Index3 cell{};
+  };
+  const int rank = grid.ranks().rank();
+  std::vector<Nearest> nearest(points.size(), {.rank = rank});
+  std::vector<std::optional<Index3>> cells(points.size());
   for_each_cell_in_order(grid.owned(), [&](int i, int j, int k) {
-    const double distance = (grid.centre(i, j, k) - x).norm();
-    if (distance < nearest.distance) {
-      nearest.distance = distance;
-      cell = {i, j, k};
-    }
+    const Vec3 centre = grid.centre(i, j, k);
+    for (std::size_t p = 0; p < points.size(); ++p)
+      if (const double distance = (centre - points[p]).norm(); distance < nearest[p].distance) {
+        nearest[p].distance = distance;
+        cells[p] = {i, j, k};
+      }
   });
-  MPI_Allreduce(MPI_IN_PLACE, &nearest, 1, MPI_DOUBLE_INT, MPI_MINLOC, grid.ranks().comm());
-  return nearest.rank == grid.ranks().rank() ? std::optional(cell) : std::nullopt;
+  MPI_Allreduce(MPI_IN_PLACE, nearest.data(), static_cast<int>(nearest.size()), MPI_DOUBLE_INT, MPI_MINLOC,
+                grid.ranks().comm());
+  for (std::size_t p = 0; p < points.size(); ++p)
+    if (nearest[p].rank != rank)
+      cells[p].reset();
+  return cells;
 }
 
 /// Points that no cell holds take the slope in the middle of the nearest one.  Collective.
 void search_nearest_cells(const Grid& grid, const Curvilinear& m, std::span<const Vec3> points, Search& search)
 {
-  Search beside(points.size());
-  bool any = false;
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    if (search.bits[p] != 0)
-      continue;
-    any = true;
-    if (const auto cell = nearest_cell(grid, points[p]))
-      beside.add(static_cast<int>(p), trilinear_slope(nodes_of(m, *cell), Vec3::Constant(0.5)).inverse());
-  }
-  if (!any)
+  std::vector<int> lost;
+  std::vector<Vec3> places;
+  for (std::size_t p = 0; p < points.size(); ++p)
+    if (search.bits[p] == 0) {
+      lost.push_back(static_cast<int>(p));
+      places.push_back(points[p]);
+    }
+  if (lost.empty())
     return;
+  const auto cells = nearest_cells(grid, places);
+  Search beside(lost.size());
+  for (std::size_t n = 0; n < lost.size(); ++n)
+    if (cells[n])
+      beside.add(static_cast<int>(n), trilinear_slope(nodes_of(m, *cells[n]), Vec3::Constant(0.5)).inverse());
   beside.collect(grid.ranks().comm());
-  for (std::size_t n = 0; n < search.slopes.size(); ++n)
-    search.slopes[n] += beside.slopes[n];
+  for (std::size_t n = 0; n < lost.size(); ++n)
+    search.add(lost[n], beside.mean_slope(n));
 }
 
 CellShape shape_of(const Mat3& slope)
