@@ -136,12 +136,36 @@ Extent extent_of(std::span<const Vec3> points)
   return box;
 }
 
+/// Larger by rounding.
+Extent widened(const Extent& box)
+{
+  const Vec3 rounding = Vec3::Constant(tolerance * (box.high - box.low).norm());
+  return {box.low - rounding, box.high + rounding};
+}
+
 /// Around a cell, a little too large for faces that are curved.
 Extent extent_of_cell(const Corners& nodes)
 {
-  const Extent box = extent_of(nodes);
-  const Vec3 rounding = Vec3::Constant(tolerance * (box.high - box.low).norm());
-  return {box.low - rounding, box.high + rounding};
+  return widened(extent_of(nodes));
+}
+
+/// The same around the cells from `begin` to before `end` of a row.
+Extent extent_of_cells(const Curvilinear& m, int begin, int end, int j, int k)
+{
+  Extent box;
+  for (int a = 0; a < 3; ++a) {
+    double low = m.node[a](begin, j, k);
+    double high = low;
+    for (const double* row :
+         {m.node[a].row(j, k), m.node[a].row(j + 1, k), m.node[a].row(j, k + 1), m.node[a].row(j + 1, k + 1)})
+      for (int i = begin; i <= end; ++i) {
+        low = std::min(low, row[i]);
+        high = std::max(high, row[i]);
+      }
+    box.low[a] = low;
+    box.high[a] = high;
+  }
+  return widened(box);
 }
 
 /// Where a point lies in a cell, 0 to 1 along each direction, if it does.
@@ -239,6 +263,13 @@ class Bins {
             visit(point);
   }
 
+  [[nodiscard]] bool any_near(const Extent& region) const
+  {
+    bool any = false;
+    for_each_near(region, [&](int) { any = true; });
+    return any;
+  }
+
  private:
   [[nodiscard]] Index3 place(const Vec3& x) const
   {
@@ -257,6 +288,22 @@ class Bins {
   double per_length_ = 0.0;
   std::vector<std::vector<int>> bins_;
 };
+
+/// visit(i, j, k) in order for the cells of a box, but for pieces of rows without any point near them.
+template <class Visit>
+void for_each_cell_near(const IndexBox& box, const Curvilinear& m, const Bins& bins, Visit visit)
+{
+  constexpr int piece = 8;
+  for (int k = box.lo[2]; k < box.hi[2]; ++k)
+    for (int j = box.lo[1]; j < box.hi[1]; ++j)
+      for (int begin = box.lo[0]; begin < box.hi[0]; begin += piece) {
+        const int end = std::min(begin + piece, box.hi[0]);
+        if (!bins.any_near(extent_of_cells(m, begin, end, j, k)))
+          continue;
+        for (int i = begin; i < end; ++i)
+          visit(i, j, k);
+      }
+}
 
 /// Bits of a standing: 0 inside, 1 + 2 axis + end on a side.
 using Bits = unsigned;
@@ -308,8 +355,17 @@ struct Search {
   }
 };
 
-/// The cells whose centres are nearest to points, each on the one rank that has the nearest of all.  Collective.
-std::vector<std::optional<Index3>> nearest_cells(const Grid& grid, std::span<const Vec3> points)
+bool is_at_side(const Grid& grid, const Index3& cell)
+{
+  for (int a = 0; a < 3; ++a)
+    if (cell[a] == 0 || cell[a] + 1 == grid.cells()[a])
+      return true;
+  return false;
+}
+
+/// The cells at sides whose centres are nearest to points, each on the one rank that has the nearest of all.
+/// Collective.
+std::vector<std::optional<Index3>> nearest_side_cells(const Grid& grid, std::span<const Vec3> points)
 {
   struct Nearest {
     double distance = std::numeric_limits<double>::max();
@@ -319,6 +375,8 @@ std::vector<std::optional<Index3>> nearest_cells(const Grid& grid, std::span<con
   std::vector<Nearest> nearest(points.size(), {.rank = rank});
   std::vector<std::optional<Index3>> cells(points.size());
   for_each_cell_in_order(grid.owned(), [&](int i, int j, int k) {
+    if (!is_at_side(grid, {i, j, k}))
+      return;
     const Vec3 centre = grid.centre(i, j, k);
     for (std::size_t p = 0; p < points.size(); ++p)
       if (const double distance = (centre - points[p]).norm(); distance < nearest[p].distance) {
@@ -334,8 +392,8 @@ std::vector<std::optional<Index3>> nearest_cells(const Grid& grid, std::span<con
   return cells;
 }
 
-/// Points that no cell holds take the slope in the middle of the nearest one.  Collective.
-void search_nearest_cells(const Grid& grid, const Curvilinear& m, std::span<const Vec3> points, Search& search)
+/// Points outside the grid take the slope in the middle of the nearest cell.  Collective.
+void search_beside_grid(const Grid& grid, const Curvilinear& m, std::span<const Vec3> points, Search& search)
 {
   std::vector<int> lost;
   std::vector<Vec3> places;
@@ -346,7 +404,7 @@ void search_nearest_cells(const Grid& grid, const Curvilinear& m, std::span<cons
     }
   if (lost.empty())
     return;
-  const auto cells = nearest_cells(grid, places);
+  const auto cells = nearest_side_cells(grid, places);
   Search beside(lost.size());
   for (std::size_t n = 0; n < lost.size(); ++n)
     if (cells[n])
@@ -366,7 +424,7 @@ std::vector<Standing> standings_in_curvilinear(const Grid& grid, const Curviline
 {
   Search search(points.size());
   const Bins bins(points);
-  for_each_cell_in_order(grid.owned(), [&](int i, int j, int k) {
+  for_each_cell_near(grid.owned(), m, bins, [&](int i, int j, int k) {
     const Corners nodes = nodes_of(m, {i, j, k});
     const Extent extent = extent_of_cell(nodes);
     bins.for_each_near(extent, [&](int p) {
@@ -379,7 +437,7 @@ std::vector<Standing> standings_in_curvilinear(const Grid& grid, const Curviline
     });
   });
   search.collect(grid.ranks().comm());
-  search_nearest_cells(grid, m, points, search);
+  search_beside_grid(grid, m, points, search);
   std::vector<Standing> result(points.size());
   for (std::size_t p = 0; p < points.size(); ++p) {
     result[p].inside = (search.bits[p] & 1U) != 0;
