@@ -189,7 +189,9 @@ def mid_plane(sheets, normal=None, box=None, box_decides=False):
     if normal is None:
         share = np.sum([np.abs(sheet.area_vectors()).sum(axis=0) for sheet in sheets], axis=0)
         normal = max(a for a in range(3) if share[a] <= share.min() + 1e-6 * share.sum())
-    return Plane(normal, 0.5 * (points[:, normal].min() + points[:, normal].max()))
+    middle = 0.5 * (points[:, normal].min() + points[:, normal].max())
+    is_rounding = abs(middle) < 1e-9 * np.ptp(points, axis=0).max()
+    return Plane(normal, 0.0 if is_rounding else middle)
 
 
 # ---- flow -----------------------------------------------------------------------------------------------------------
