@@ -20,6 +20,7 @@
 #include "support/curvilinear.hpp"
 #include "support/exact_flows.hpp"
 #include "support/stretched_flow.hpp"
+#include "support/surfaces.hpp"
 
 namespace luff::test {
 namespace {
@@ -110,10 +111,7 @@ immersed::SheetMotion heaving_valve(double t)
       x = {0.3 * (0.9 - r) + 0.1 * std::sin(2.0 * t), r * std::cos(angle) + 0.05 * std::cos(middle),
            r * std::sin(angle) + 0.05 * std::sin(middle)};
     }
-    const auto first = static_cast<int>(valve.vertices.size());
-    valve.vertices.insert(valve.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-    for (const auto& [a, b, c] : mesh.triangles)
-      valve.triangles.push_back({first + a, first + b, first + c});
+    append(valve, mesh);
   }
   const std::size_t vertices = valve.vertices.size();
   return {valve.vertices, std::vector<Vec3>(vertices, 0.2 * std::cos(2.0 * t) * Vec3::UnitX()),

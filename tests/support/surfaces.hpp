@@ -14,6 +14,15 @@ namespace luff::test {
 
 using surface::TriangleMesh;
 
+/// Adds a surface to another; no vertex becomes one with those that are there.
+inline void append(TriangleMesh& mesh, const TriangleMesh& other)
+{
+  const int first = mesh.n_vertices();
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& [a, b, c] : other.triangles)
+    mesh.triangles.push_back({first + a, first + b, first + c});
+}
+
 /// The cube |x|, |y|, |z| <= 1, normals out.
 inline TriangleMesh cube()
 {

@@ -28,11 +28,8 @@ struct Bodies {
   explicit Bodies(const std::vector<TriangleMesh>& meshes)
   {
     for (const TriangleMesh& mesh : meshes) {
-      const int first = all.n_vertices();
-      surfaces.push_back({first, mesh.n_vertices(), all.n_triangles(), mesh.n_triangles()});
-      all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-      for (const auto& [a, b, c] : mesh.triangles)
-        all.triangles.push_back({a + first, b + first, c + first});
+      surfaces.push_back({all.n_vertices(), mesh.n_vertices(), all.n_triangles(), mesh.n_triangles()});
+      test::append(all, mesh);
     }
   }
   [[nodiscard]] std::vector<Crossing> crossings(const grid::Grid& grid) const

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "shell/contact/contact.hpp"
 #include "support/shells.hpp"
+#include "support/surfaces.hpp"
 
 namespace luff::shell {
 namespace {
@@ -103,9 +104,7 @@ TEST(Contact, TakesSeparatePartsOfOneMeshForTwoSurfaces)
   const std::vector<ContactSheet> sheets = two_sheets(0.3);
   surface::TriangleMesh both = sheets[0].mesh;
   const int n = both.n_vertices();
-  both.vertices.insert(both.vertices.end(), sheets[1].mesh.vertices.begin(), sheets[1].mesh.vertices.end());
-  for (const auto& [a, b, c] : sheets[1].mesh.triangles)
-    both.triangles.push_back({a + n, b + n, c + n});
+  test::append(both, sheets[1].mesh);
   const ContactPieces pieces(std::vector<ContactSheet>{{"both", both, true}});
   for (int v = 0; v < pieces.n_vertices(); ++v)
     EXPECT_EQ(pieces.surface(v), v < n ? 0 : n);

@@ -10,6 +10,7 @@
 #include "shell/dynamics.hpp"
 #include "shell/statics.hpp"
 #include "support/shells.hpp"
+#include "support/surfaces.hpp"
 
 namespace luff::shell {
 namespace {
@@ -106,10 +107,7 @@ Course march(Dynamics& dynamics, double dt, double t_end)
 
 surface::TriangleMesh joined(surface::TriangleMesh a, const surface::TriangleMesh& b)
 {
-  const int n = a.n_vertices();
-  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-  for (const auto& [i, j, k] : b.triangles)
-    a.triangles.push_back({i + n, j + n, k + n});
+  test::append(a, b);
   return a;
 }
 
