@@ -360,7 +360,7 @@ void FlowSolver::replace_rates_of_cut_cells(const Stage& stage, const operators:
   explicit_increment_.resize(cells.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t n = 0; n < cells.size(); ++n)
-    terms_[n] = immersed::momentum_terms(grid_, links_, cells[n], views(std::as_const(u_)), options_.viscosity,
+    terms_[n] = immersed::momentum_terms(links_, cells[n], views(std::as_const(u_)), options_.viscosity,
                                          {stage.rate_time}, {stage.end});
   if (cross_terms_)
     add_cross_terms({stage.rate_time});
@@ -425,10 +425,9 @@ void FlowSolver::freeze_pressure_push(const Stage& stage)
 /// u^n + du - c dt G p of the latest pressure in the donors of wall nodes.
 void FlowSolver::give_to_wall_nodes(const Stage& stage)
 {
-  constexpr int open = immersed::open_link;
   for (const Index3& c : wall_nodes_->donors()) {
-    const Vec3 push = stage.end * step_.dt *
-                      immersed::pressure_gradient(grid_, links_, {c, {open, open, open, open, open, open}}, p_.view());
+    const Vec3 push =
+        stage.end * step_.dt * immersed::pressure_gradient(grid_, links_, immersed::uncut_cell(grid_, c), p_.view());
     for (int d = 0; d < 3; ++d)
       given_[d].view()(c) = state_.u[d].view()(c) + increment_[d].view()(c) - push[d];
   }
@@ -441,7 +440,7 @@ Vec3 FlowSolver::momentum_beside_wall(std::size_t n, const Stage& stage, SheetVe
   const double implicit = stage.wall * step_.dt;
   const immersed::CutCell& cut = links_.cells()[n];
   const Vec3 source = velocity == SheetVelocity::Current
-                          ? immersed::wall_source(grid_, links_, cut, options_.viscosity, {stage.end, velocity})
+                          ? immersed::wall_source(links_, cut, options_.viscosity, {stage.end, velocity})
                           : terms_[n].wall_source;
   const Vec3 u_old = at(views(state_.u), cut.cell);
   return (u_old + explicit_increment_[n] + implicit * source - pressure_push_[n]) /

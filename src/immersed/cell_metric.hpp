@@ -24,15 +24,19 @@ namespace luff::immersed {
   return 0.5 * (S(cell) + S(stepped(cell, axis, 1)));
 }
 
-/// Distance between the centres beside the low face of a cell, as its gradient flux has it: |S_f|/a_f on curvilinear
-/// grids, a_f from G_aa(P) and G_aa(N) in series.
-[[nodiscard]] inline double distance_across(const grid::Grid& grid, int axis, const Index3& face)
+/// Distance between the centres beside the low face of a cell, of the area given, as its gradient flux has it:
+/// |S_f|/a_f on curvilinear grids, a_f from G_aa(P) and G_aa(N) in series.
+[[nodiscard]] inline double distance_across(const grid::Grid& grid, int axis, const Index3& face, double area)
 {
   const grid::Curvilinear* const m = curvilinear_metric(grid);
   if (m == nullptr)
     return grid.distance(axis, face[axis]);
-  const auto [i, j, k] = face;
-  return grid.area(axis, i, j, k) / grid::in_series(m->G[axis](stepped(face, axis, -1)), m->G[axis](face));
+  return area / grid::in_series(m->G[axis](stepped(face, axis, -1)), m->G[axis](face));
+}
+
+[[nodiscard]] inline double distance_across(const grid::Grid& grid, int axis, const Index3& face)
+{
+  return distance_across(grid, axis, face, grid.area(axis, face[0], face[1], face[2]));
 }
 
 /// From the centre below the low face of a cell to that above.
@@ -57,6 +61,34 @@ namespace luff::immersed {
 {
   const auto [i, j, k] = cell;
   return grid.area_vector(axis, i, j, k) / grid.area(axis, i, j, k);
+}
+
+/// What stencils see of a cell along one axis; pairs are of its low and its high face.
+struct CellAxis {
+  std::array<double, 2> distance{};    ///< across the faces
+  std::array<double, 2> area{};        ///< |S| of the faces
+  std::array<double, 2> area_ratio{};  ///< |S| at the centre over |S| of the faces
+  std::array<Vec3, 2> normal{};        ///< of the faces
+  Vec3 centre_normal = Vec3::Zero();   ///< S/|S| at the centre
+  double width = 0.0;                  ///< width_across()
+};
+
+[[nodiscard]] inline CellAxis cell_axis(const grid::Grid& grid, int axis, const Index3& cell)
+{
+  CellAxis result;
+  const Vec3 centre = centre_area_vector(grid, axis, cell);
+  const double at_centre = centre.norm();
+  for (int side = 0; side < 2; ++side) {
+    const Index3 face = stepped(cell, axis, side);
+    const Vec3 S = grid.area_vector(axis, face[0], face[1], face[2]);
+    result.area[side] = S.norm();
+    result.area_ratio[side] = at_centre / result.area[side];
+    result.normal[side] = S / result.area[side];
+    result.distance[side] = distance_across(grid, axis, face, result.area[side]);
+  }
+  result.centre_normal = centre / at_centre;
+  result.width = width_across(grid, axis, cell);
+  return result;
 }
 
 }  // namespace luff::immersed

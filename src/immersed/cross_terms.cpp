@@ -84,7 +84,7 @@ void CrossTerms::update(const CutLinks& links, const View3<const double>& u, con
         continue;
       Vec3 difference = Vec3::Zero();
       for (const LinkForm& form : LinkForms(links, cut, b)) {
-        const CutAxis along = cut_axis(grid_, links, cut, b, time, form.cut);
+        const CutAxis along = cut_axis(links, cut, b, time, form.cut);
         const auto [low, high] = velocities_beside(links, cut, b, along, u, time);
         difference += form.weight * along.difference(low, high);
       }

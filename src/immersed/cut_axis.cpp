@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "immersed/cell_metric.hpp"
 #include "parallel/vector_field.hpp"
 
 namespace luff::immersed {
@@ -19,35 +18,14 @@ LinkForms::LinkForms(const CutLinks& links, const CutCell& cut, int axis)
     }
 }
 
-namespace {
-
-/// d of both links, h of the cell and the ratios of areas.
-CutAxis open_axis(const grid::Grid& grid, const Index3& cell, int axis)
-{
-  CutAxis result;
-  const grid::Curvilinear* const m = curvilinear_metric(grid);
-  if (m == nullptr) {
-    result.distance = {grid.distance(axis, cell[axis]), grid.distance(axis, cell[axis] + 1)};
-    result.width = grid.width(axis, cell[axis]);
-    return result;
-  }
-  const double at_centre = centre_area_vector(grid, axis, cell).norm();
-  for (int side = 0; side < 2; ++side) {
-    const Index3 face = stepped(cell, axis, side);
-    const double area = grid.area(axis, face[0], face[1], face[2]);
-    result.distance[side] = area / grid::in_series(m->G[axis](stepped(face, axis, -1)), m->G[axis](face));
-    result.area_ratio[side] = at_centre / area;
-  }
-  result.width = m->V(cell) / at_centre;
-  return result;
-}
-
-}  // namespace
-
-CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis, const StageTime& time,
+CutAxis cut_axis(const CutLinks& links, const CutCell& cut, int axis, const StageTime& time,
                  const std::array<bool, 2>& as_cut)
 {
-  CutAxis result = open_axis(grid, cut.cell, axis);
+  const CellAxis& whole = cut.along[axis];
+  CutAxis result;
+  result.distance = whole.distance;
+  result.area_ratio = whole.area_ratio;
+  result.width = whole.width;
   for (int side = 0; side < 2; ++side) {
     result.length[side] = result.distance[side];
     if (!as_cut[side])
@@ -62,9 +40,9 @@ CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& c
   return result;
 }
 
-CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis, const StageTime& time)
+CutAxis cut_axis(const CutLinks& links, const CutCell& cut, int axis, const StageTime& time)
 {
-  return cut_axis(grid, links, cut, axis, time, {cut.face[2 * axis] != open_link, cut.face[2 * axis + 1] != open_link});
+  return cut_axis(links, cut, axis, time, {cut.face[2 * axis] != open_link, cut.face[2 * axis + 1] != open_link});
 }
 
 std::array<Vec3, 2> velocities_beside(const CutLinks& links, const CutCell& cut, int axis, const CutAxis& along,

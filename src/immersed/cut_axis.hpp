@@ -66,11 +66,10 @@ class LinkForms {
 }
 
 /// The links in one form, with the sheet where it is at a time of the step.
-[[nodiscard]] CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis,
-                               const StageTime& time, const std::array<bool, 2>& as_cut);
+[[nodiscard]] CutAxis cut_axis(const CutLinks& links, const CutCell& cut, int axis, const StageTime& time,
+                               const std::array<bool, 2>& as_cut);
 /// In the form in which every cut link counts as cut.
-[[nodiscard]] CutAxis cut_axis(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, int axis,
-                               const StageTime& time);
+[[nodiscard]] CutAxis cut_axis(const CutLinks& links, const CutCell& cut, int axis, const StageTime& time);
 
 /// The velocities beside a cut cell along an axis: the neighbour's, or that of the sheet.
 [[nodiscard]] std::array<Vec3, 2> velocities_beside(const CutLinks& links, const CutCell& cut, int axis,

@@ -13,14 +13,6 @@ namespace luff::immersed {
 
 namespace {
 
-/// Speed at which the flow crosses the faces of a cell normal to an axis.
-double speed_across(const grid::Grid& grid, const Vec3& u, int axis, const Index3& cell)
-{
-  if (grid.kind() != grid::Kind::Curvilinear)
-    return u[axis];
-  return u.dot(centre_area_vector(grid, axis, cell).normalized());
-}
-
 /// A value between two others, at the distances given from them.
 template <class Value>
 Value between(const std::array<Value, 2>& value, const std::array<double, 2>& distance)
@@ -53,25 +45,25 @@ Vec3 gradient_of_slopes(const grid::Grid& grid, const CutLinks& links, const Cut
     return slope;
   Vec3 width;
   for (int a = 0; a < 3; ++a)
-    width[a] = width_across(grid, a, cut.cell);
+    width[a] = cut.along[a].width;
   const Vec3 difference = closed_differences(*metric, links, cut, slope.cwiseProduct(width));
   Vec3 gradient = Vec3::Zero();
   for (int a = 0; a < 3; ++a)
-    gradient += difference[a] / width[a] * centre_area_vector(grid, a, cut.cell).normalized();
+    gradient += difference[a] / width[a] * cut.along[a].centre_normal;
   return gradient;
 }
 
 }  // namespace
 
-CutCellTerms momentum_terms(const grid::Grid& grid, const CutLinks& links, const CutCell& cut,
-                            const View3<const double>& u, double viscosity, const StageTime& now, const StageTime& then)
+CutCellTerms momentum_terms(const CutLinks& links, const CutCell& cut, const View3<const double>& u, double viscosity,
+                            const StageTime& now, const StageTime& then)
 {
   CutCellTerms terms{Vec3::Zero(), Vec3::Zero(), 0.0};
   const Vec3 u_here = at(u, cut.cell);
   for (int axis = 0; axis < 3; ++axis)
     for (const LinkForm& form : LinkForms(links, cut, axis)) {
-      const CutAxis along_now = cut_axis(grid, links, cut, axis, now, form.cut);
-      const CutAxis along_then = form.any_cut() ? cut_axis(grid, links, cut, axis, then, form.cut) : along_now;
+      const CutAxis along_now = cut_axis(links, cut, axis, now, form.cut);
+      const CutAxis along_then = form.any_cut() ? cut_axis(links, cut, axis, then, form.cut) : along_now;
       const std::array<Vec3, 2> u_beside = velocities_beside(links, cut, axis, along_now, u, now);
       for (int side = 0; side < 2; ++side) {
         if (form.cut[side]) {
@@ -82,21 +74,20 @@ CutCellTerms momentum_terms(const grid::Grid& grid, const CutLinks& links, const
           terms.explicit_rate += form.weight * along_now.exchange(side, viscosity) * (u_beside[side] - u_here);
         }
       }
-      terms.explicit_rate -= form.weight * speed_across(grid, u_here, axis, cut.cell) /
+      terms.explicit_rate -= form.weight * u_here.dot(cut.along[axis].centre_normal) /
                              (along_now.length[0] + along_now.length[1]) * (u_beside[1] - u_beside[0]);
     }
   return terms;
 }
 
-Vec3 wall_source(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, double viscosity,
-                 const StageTime& then)
+Vec3 wall_source(const CutLinks& links, const CutCell& cut, double viscosity, const StageTime& then)
 {
   Vec3 source = Vec3::Zero();
   for (int axis = 0; axis < 3; ++axis)
     for (const LinkForm& form : LinkForms(links, cut, axis)) {
       if (!form.any_cut())
         continue;
-      const CutAxis along = cut_axis(grid, links, cut, axis, then, form.cut);
+      const CutAxis along = cut_axis(links, cut, axis, then, form.cut);
       for (int side = 0; side < 2; ++side)
         if (form.cut[side])
           source += form.weight * along.exchange(side, viscosity) * links.velocity(along.hit[side], then);
@@ -108,8 +99,7 @@ Vec3 pressure_gradient(const grid::Grid& grid, const CutLinks& links, const CutC
 {
   Vec3 slope = Vec3::Zero();
   for (int axis = 0; axis < 3; ++axis) {
-    const std::array<double, 2> d{distance_across(grid, axis, cut.cell),
-                                  distance_across(grid, axis, stepped(cut.cell, axis, 1))};
+    const std::array<double, 2>& d = cut.along[axis].distance;
     double known = 0.0;
     for (const LinkForm& form : LinkForms(links, cut, axis)) {
       if (form.cut[0] && form.cut[1])
@@ -135,8 +125,7 @@ void recover_velocity(const grid::Grid& grid, const CutLinks& links, const View3
     const int f = cut.face[2 * axis + side];
     if (f != open_link)
       return links.open_velocity(links.faces()[f], U, time);
-    const auto [i, j, k] = stepped(cut.cell, axis, side);
-    return U[axis](i, j, k) / grid.area(axis, i, j, k);
+    return U[axis](stepped(cut.cell, axis, side)) / cut.along[axis].area[side];
   };
   for (const CutCell& cut : links.cells()) {
     // The rows of S . u = flux, all divided by the areas of faces.
@@ -144,12 +133,11 @@ void recover_velocity(const grid::Grid& grid, const CutLinks& links, const View3
     Vec3 flux = Vec3::Zero();
     for (int axis = 0; axis < 3; ++axis)
       for (const LinkForm& form : LinkForms(links, cut, axis)) {
-        const CutAxis along = cut_axis(grid, links, cut, axis, time, form.cut);
+        const CutAxis along = cut_axis(links, cut, axis, time, form.cut);
         std::array<double, 2> value{};
         std::array<double, 2> distance{};
-        std::array<Vec3, 2> normal;
+        const std::array<Vec3, 2>& normal = cut.along[axis].normal;
         for (int side = 0; side < 2; ++side) {
-          normal[side] = face_normal(grid, axis, stepped(cut.cell, axis, side));
           if (form.cut[side]) {
             value[side] = links.velocity(along.hit[side], time).dot(normal[side]);
             distance[side] = std::max(along.theta[side], 0.0) * along.distance[side];

@@ -26,13 +26,11 @@ struct CutCellTerms {
 };
 
 /// Terms with the velocity field u at the time `now` of the explicit part and `then` of the implicit part.
-[[nodiscard]] CutCellTerms momentum_terms(const grid::Grid& grid, const CutLinks& links, const CutCell& cut,
-                                          const View3<const double>& u, double viscosity, const StageTime& now,
-                                          const StageTime& then);
+[[nodiscard]] CutCellTerms momentum_terms(const CutLinks& links, const CutCell& cut, const View3<const double>& u,
+                                          double viscosity, const StageTime& now, const StageTime& then);
 
 /// wall_source alone, sum_cut v_k u_b(then): what a coupling iteration changes.
-[[nodiscard]] Vec3 wall_source(const grid::Grid& grid, const CutLinks& links, const CutCell& cut, double viscosity,
-                               const StageTime& then);
+[[nodiscard]] Vec3 wall_source(const CutLinks& links, const CutCell& cut, double viscosity, const StageTime& then);
 
 /// Gradient of p at the centre, one-sided across cut links, zero along an axis cut on both sides; across faces that are
 /// covered in part by the part that is open.  p with valid halos.

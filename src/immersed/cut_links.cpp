@@ -183,6 +183,16 @@ void CutLinks::find_faces()
 }
 
 /// The cells inside bodies, and those of the fluid beside cut faces.
+CutCell uncut_cell(const grid::Grid& grid, const Index3& cell)
+{
+  CutCell result;
+  result.cell = cell;
+  result.face.fill(open_link);
+  for (int a = 0; a < 3; ++a)
+    result.along[a] = cell_axis(grid, a, cell);
+  return result;
+}
+
 void CutLinks::find_cells()
 {
   for (const InsideCell& inside : inside_)
@@ -198,9 +208,10 @@ void CutLinks::find_cells()
   std::sort(beside.begin(), beside.end());
   beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
   cells_.resize(beside.size());
+#pragma omp parallel for schedule(static)
   for (std::size_t n = 0; n < beside.size(); ++n) {
     CutCell& cut = cells_[n];
-    cut.cell = {beside[n][2], beside[n][1], beside[n][0]};
+    cut = uncut_cell(grid_, {beside[n][2], beside[n][1], beside[n][0]});
     for (int a = 0; a < 3; ++a) {
       cut.face[2 * a] = mark_[a].view()(cut.cell);
       cut.face[2 * a + 1] = mark_[a].view()(stepped(cut.cell, a, 1));

@@ -13,6 +13,7 @@
 
 #include "core/vec3.hpp"
 #include "grid/grid.hpp"
+#include "immersed/cell_metric.hpp"
 #include "immersed/crossings.hpp"
 #include "immersed/free_edges.hpp"
 #include "immersed/inside.hpp"
@@ -86,8 +87,12 @@ struct FluxHistory {
 struct CutCell {
   Index3 cell{};
   std::array<int, 6> face{};
+  std::array<CellAxis, 3> along{};  ///< as in a cell without cut links
 };
 inline constexpr int open_link = -1;
+
+/// As if none of its links were cut.
+[[nodiscard]] CutCell uncut_cell(const grid::Grid& grid, const Index3& cell);
 
 /// Offsets of the fluxes of cut faces in the accepted state, by the number of the face in the whole grid.
 struct FluxOffsets {

@@ -27,6 +27,7 @@ struct HitView {
   int axis;
   int side;  ///< of the link as seen from the cell: 1 when the hit lies on its high link
 
+  [[nodiscard]] const CellAxis& along() const { return cut.along[axis]; }
   [[nodiscard]] const CutFace& face(const CutLinks& links) const { return links.faces()[cut.face[2 * axis + side]]; }
   [[nodiscard]] int hit(const CutLinks& links) const { return side == 1 ? face(links).first : face(links).last; }
   /// Of the face behind the cell, away from the hit, the part that is open, and the cell there.
@@ -50,7 +51,7 @@ Vec3 wall_shear_of(const CutAxis& along, const CutLinks& links, const LoadFields
 }
 
 /// The mean over the forms in which the hit's own link is cut.
-Vec3 wall_shear(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const HitView& view)
+Vec3 wall_shear(const CutLinks& links, const LoadFields& fields, const HitView& view)
 {
   const int side = view.side;
   const StageTime now{1.0, SheetVelocity::Current};
@@ -58,11 +59,10 @@ Vec3 wall_shear(const grid::Grid& grid, const CutLinks& links, const LoadFields&
   for (const LinkForm& form : LinkForms(links, view.cut, view.axis))
     if (form.cut[side])
       shear += form.weight / view.face(links).cover *
-               wall_shear_of(cut_axis(grid, links, view.cut, view.axis, now, form.cut), links, fields, view);
+               wall_shear_of(cut_axis(links, view.cut, view.axis, now, form.cut), links, fields, view);
   if (fields.cross == nullptr)
     return shear;
-  const auto [i, j, k] = stepped(view.cut.cell, view.axis, side);
-  const Vec3 cross = fields.cross->at_wall(links, view.cut, view.axis, side, fields.u) / grid.area(view.axis, i, j, k);
+  const Vec3 cross = fields.cross->at_wall(links, view.cut, view.axis, side, fields.u) / view.along().area[side];
   return shear + (side == 1 ? -1.0 : 1.0) * fields.viscosity * cross;
 }
 
@@ -89,21 +89,18 @@ double slope_of_inertia(const CutLinks& links, const LoadFields& fields, const H
   return towards * (behind - a[2 * view.axis + view.side]);
 }
 
-HitTraction one_sided(const grid::Grid& grid, const CutLinks& links, const LoadFields& fields, const HitView& view)
+HitTraction one_sided(const CutLinks& links, const LoadFields& fields, const HitView& view)
 {
-  const Index3 face_behind = stepped(view.cut.cell, view.axis, 1 - view.side);
   const double to_sheet = links.crossings()[view.hit(links)].theta;
-  const double distance = (view.side == 1 ? to_sheet : 1.0 - to_sheet) *
-                          distance_across(grid, view.axis, stepped(view.cut.cell, view.axis, view.side));
+  const double distance = (view.side == 1 ? to_sheet : 1.0 - to_sheet) * view.along().distance[view.side];
   const double open = view.open_behind(links);
-  const Vec3 out =
-      (view.side == 1 ? -1.0 : 1.0) * face_normal(grid, view.axis, stepped(view.cut.cell, view.axis, view.side));
+  const Vec3 out = (view.side == 1 ? -1.0 : 1.0) * view.along().normal[view.side];
   const double p_here = fields.p(view.cut.cell);
   const double slope =  // towards the sheet
-      (open > 0.0 ? open * (p_here - fields.p(view.behind())) / distance_across(grid, view.axis, face_behind) : 0.0) +
+      (open > 0.0 ? open * (p_here - fields.p(view.behind())) / view.along().distance[1 - view.side] : 0.0) +
       slope_of_inertia(links, fields, view);
   return {.pressure = fields.density * (p_here + distance * slope),
-          .viscous = fields.density * wall_shear(grid, links, fields, view) +
+          .viscous = fields.density * wall_shear(links, fields, view) +
                      turning_shear(links, fields, links.crossings()[view.hit(links)].triangle, out)};
 }
 
@@ -139,8 +136,8 @@ void for_each_hit_side(const grid::Grid& grid, const CutLinks& links, const Load
         if (f == open_link)
           continue;
         const CutFace& face = links.faces()[f];
-        const double area = face.cover * grid.area(axis, face.cell[0], face.cell[1], face.cell[2]);
-        visit(side == 1 ? face.first : face.last, 1 - side, one_sided(grid, links, fields, {cut, n, axis, side}), area);
+        const double area = face.cover * cut.along[axis].area[side];
+        visit(side == 1 ? face.first : face.last, 1 - side, one_sided(links, fields, {cut, n, axis, side}), area);
       }
     }
   for (const CutFace& face : links.faces()) {

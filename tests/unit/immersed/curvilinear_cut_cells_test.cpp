@@ -58,7 +58,7 @@ struct Flow {
   [[nodiscard]] View3<const double> velocity() const { return views(u); }
   [[nodiscard]] CutCellTerms terms(const CutCell& cut) const
   {
-    CutCellTerms terms = momentum_terms(grid, links, cut, velocity(), viscosity, {1.0}, {1.0});
+    CutCellTerms terms = momentum_terms(links, cut, velocity(), viscosity, {1.0}, {1.0});
     const auto [i, j, k] = cut.cell;
     if (cross)
       terms.explicit_rate += viscosity / grid.volume(i, j, k) * cross->net_outflow(links, cut, velocity());
