@@ -19,8 +19,7 @@ SideGradient::SideGradient(const grid::Grid& grid, int axis, int end, const Inde
 
 const SideGradient::Face& SideGradient::face(const Index3& c) const
 {
-  const auto from = [&](int d) { return static_cast<std::ptrdiff_t>(c[d] - cells_.lo[d]); };
-  return faces_[from(0) + cells_.extent(0) * (from(1) + cells_.extent(1) * from(2))];
+  return faces_[cells_.position(c)];
 }
 
 /// Central where the domain goes on both ways; zero where it has one cell only.

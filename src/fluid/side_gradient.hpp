@@ -45,16 +45,10 @@ class SideGradient {
   class Prescribed {
    public:
     explicit Prescribed(const IndexBox& box) : box_(box), values_(box.volume()) {}
-    [[nodiscard]] const Vec3& operator()(const Index3& c) const { return values_[place(c)]; }
-    [[nodiscard]] Vec3& operator()(const Index3& c) { return values_[place(c)]; }
+    [[nodiscard]] const Vec3& operator()(const Index3& c) const { return values_[box_.position(c)]; }
+    [[nodiscard]] Vec3& operator()(const Index3& c) { return values_[box_.position(c)]; }
 
    private:
-    [[nodiscard]] std::ptrdiff_t place(const Index3& c) const
-    {
-      return (c[0] - box_.lo[0]) +
-             static_cast<std::ptrdiff_t>(box_.extent(0)) *
-                 ((c[1] - box_.lo[1]) + static_cast<std::ptrdiff_t>(box_.extent(1)) * (c[2] - box_.lo[2]));
-    }
     IndexBox box_;
     std::vector<Vec3> values_;
   };

@@ -7,6 +7,8 @@
 
 #include <Eigen/LU>
 
+#include "core/bounding_box.hpp"
+
 namespace luff::grid {
 
 namespace {
@@ -113,46 +115,23 @@ Corners nodes_of(const Curvilinear& m, const Index3& c)
       c, [&](int i, int j, int k) { return Vec3(m.node[0](i, j, k), m.node[1](i, j, k), m.node[2](i, j, k)); });
 }
 
-/// A box of space.
-struct Extent {
-  Vec3 low;
-  Vec3 high;
-
-  [[nodiscard]] bool touches(const Extent& other) const
-  {
-    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
-  }
-  [[nodiscard]] bool holds(const Vec3& x) const { return touches({x, x}); }
-};
-
-/// The box around points.
-Extent extent_of(std::span<const Vec3> points)
-{
-  Extent box{points.front(), points.front()};
-  for (const Vec3& x : points) {
-    box.low = box.low.cwiseMin(x);
-    box.high = box.high.cwiseMax(x);
-  }
-  return box;
-}
-
 /// Larger by rounding.
-Extent widened(const Extent& box)
+BoundingBox widened(const BoundingBox& box)
 {
-  const Vec3 rounding = Vec3::Constant(tolerance * (box.high - box.low).norm());
+  const Vec3 rounding = Vec3::Constant(tolerance * box.size());
   return {box.low - rounding, box.high + rounding};
 }
 
 /// Around a cell, a little too large for faces that are curved.
-Extent extent_of_cell(const Corners& nodes)
+BoundingBox box_of_cell(const Corners& nodes)
 {
-  return widened(extent_of(nodes));
+  return widened(bounding_box(nodes));
 }
 
 /// The same around the cells from `begin` to before `end` of a row.
-Extent extent_of_cells(const Curvilinear& m, int begin, int end, int j, int k)
+BoundingBox box_of_cells(const Curvilinear& m, int begin, int end, int j, int k)
 {
-  Extent box;
+  BoundingBox box;
   for (int a = 0; a < 3; ++a) {
     double low = m.node[a](begin, j, k);
     double high = low;
@@ -186,7 +165,7 @@ std::optional<Held> cell_that_holds(const Grid& grid, const Curvilinear& m, cons
   std::optional<Held> held;
   for_each_cell_in_order(grid.owned(), [&](int i, int j, int k) {
     const Corners nodes = nodes_of(m, {i, j, k});
-    if (held || !extent_of_cell(nodes).holds(x))
+    if (held || !box_of_cell(nodes).holds(x))
       return;
     if (const auto s = place_in_cell(nodes, x))
       held = Held{{i, j, k}, *s};
@@ -239,8 +218,8 @@ class Bins {
  public:
   explicit Bins(std::span<const Vec3> points)
   {
-    extent_ = extent_of(points);
-    const double size = (extent_.high - extent_.low).maxCoeff();
+    around_ = bounding_box(points);
+    const double size = around_.extent().maxCoeff();
     n_ = std::max(1, static_cast<int>(std::cbrt(double(points.size()))));
     per_length_ = size > 0.0 ? n_ / size : 0.0;
     bins_.resize(static_cast<std::size_t>(n_) * n_ * n_);
@@ -250,9 +229,9 @@ class Bins {
 
   /// visit(point) of every point in the boxes that `region` touches.
   template <class Visit>
-  void for_each_near(const Extent& region, Visit visit) const
+  void for_each_near(const BoundingBox& region, Visit visit) const
   {
-    if (!extent_.touches(region))
+    if (!around_.touches(region))
       return;
     const Index3 from = place(region.low);
     const Index3 to = place(region.high);
@@ -263,7 +242,7 @@ class Bins {
             visit(point);
   }
 
-  [[nodiscard]] bool any_near(const Extent& region) const
+  [[nodiscard]] bool any_near(const BoundingBox& region) const
   {
     bool any = false;
     for_each_near(region, [&](int) { any = true; });
@@ -275,7 +254,7 @@ class Bins {
   {
     Index3 box{};
     for (int a = 0; a < 3; ++a)
-      box[a] = static_cast<int>(std::clamp((x[a] - extent_.low[a]) * per_length_, 0.0, n_ - 1.0));
+      box[a] = static_cast<int>(std::clamp((x[a] - around_.low[a]) * per_length_, 0.0, n_ - 1.0));
     return box;
   }
   [[nodiscard]] std::size_t number(const Index3& box) const
@@ -283,7 +262,7 @@ class Bins {
     return box[0] + n_ * (box[1] + std::size_t(n_) * box[2]);
   }
 
-  Extent extent_;
+  BoundingBox around_;
   int n_ = 1;
   double per_length_ = 0.0;
   std::vector<std::vector<int>> bins_;
@@ -298,7 +277,7 @@ void for_each_cell_near(const IndexBox& box, const Curvilinear& m, const Bins& b
     for (int j = box.lo[1]; j < box.hi[1]; ++j)
       for (int begin = box.lo[0]; begin < box.hi[0]; begin += piece) {
         const int end = std::min(begin + piece, box.hi[0]);
-        if (!bins.any_near(extent_of_cells(m, begin, end, j, k)))
+        if (!bins.any_near(box_of_cells(m, begin, end, j, k)))
           continue;
         for (int i = begin; i < end; ++i)
           visit(i, j, k);
@@ -426,9 +405,9 @@ std::vector<Standing> standings_in_curvilinear(const Grid& grid, const Curviline
   const Bins bins(points);
   for_each_cell_near(grid.owned(), m, bins, [&](int i, int j, int k) {
     const Corners nodes = nodes_of(m, {i, j, k});
-    const Extent extent = extent_of_cell(nodes);
-    bins.for_each_near(extent, [&](int p) {
-      if (!extent.holds(points[p]))
+    const BoundingBox box = box_of_cell(nodes);
+    bins.for_each_near(box, [&](int p) {
+      if (!box.holds(points[p]))
         return;
       if (const auto s = place_in_cell(nodes, points[p])) {
         search.bits[p] |= bits_at(grid, {i, j, k}, *s);

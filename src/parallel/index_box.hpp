@@ -29,6 +29,12 @@ struct IndexBox {
     return i >= lo[0] && i < hi[0] && j >= lo[1] && j < hi[1] && k >= lo[2] && k < hi[2];
   }
   [[nodiscard]] bool contains(const Index3& c) const { return contains(c[0], c[1], c[2]); }
+  /// Place of a cell in a list of the cells of the box, i fastest, then j.
+  [[nodiscard]] std::ptrdiff_t position(const Index3& c) const
+  {
+    return (c[0] - lo[0]) + static_cast<std::ptrdiff_t>(extent(0)) *
+                                ((c[1] - lo[1]) + static_cast<std::ptrdiff_t>(extent(1)) * (c[2] - lo[2]));
+  }
 
   /// The box widened by n cells on every side.
   [[nodiscard]] IndexBox grown(int n) const

@@ -51,14 +51,6 @@ std::array<std::vector<int>, 3> next_merges(const Box& box, double& width, bool 
   return first;
 }
 
-/// Place of a cell in a list of the cells of a box, i fastest.
-std::ptrdiff_t position(const IndexBox& box, const Index3& c)
-{
-  return (c[0] - box.lo[0]) +
-         static_cast<std::ptrdiff_t>(box.extent(0)) *
-             ((c[1] - box.lo[1]) + static_cast<std::ptrdiff_t>(box.extent(1)) * (c[2] - box.lo[2]));
-}
-
 IndexBox block_of(const Box& fine, const Box& coarse, const IndexBox& owned)
 {
   IndexBox block{{0, 0, 0}, coarse.cells()};
@@ -249,7 +241,7 @@ void Multigrid::label_components(std::vector<int>& component, std::vector<char>&
       if (!is_cell(X))
         return extras[extra_number(X)];
       const Index3 C = coarse.cell(X);
-      return home.contains(C) ? component[position(home, C)] : -1;
+      return home.contains(C) ? component[home.position(C)] : -1;
     };
     std::vector<int> fine_component;
     const IndexBox& owned = levels_[l]->layout().owned;

@@ -258,11 +258,7 @@ int MultigridSolver::component_of(const Index3& cell) const
 {
   if (component_.empty())
     return 0;
-  const IndexBox& box = multigrid_.finest().layout().owned;
-  const Index3 c = internal(cell);
-  return component_[(c[0] - box.lo[0]) +
-                    static_cast<std::size_t>(box.extent(0)) *
-                        ((c[1] - box.lo[1]) + static_cast<std::size_t>(box.extent(1)) * (c[2] - box.lo[2]))];
+  return component_[multigrid_.finest().layout().owned.position(internal(cell))];
 }
 
 /// f = scale (values - shift) on one row.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/bounding_box.hpp"
 #include "core/error.hpp"
 #include "shell/patch_quadratic.hpp"
 
@@ -35,7 +36,7 @@ class Builder {
         topology_(topology),
         moduli_(moduli),
         shell_(shell),
-        size_(surface::bounding_box(mesh.vertices).size()),
+        size_(bounding_box(mesh.vertices).size()),
         mirrors_(mirrors),
         mirror_of_(mesh.triangles.size(), {-1, -1, -1})
   {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 
+#include "core/bounding_box.hpp"
 #include "core/error.hpp"
 #include "shell/fibres.hpp"
 #include "shell/patch_quadratic.hpp"
@@ -85,7 +86,7 @@ void Shell::append(Piece piece)
                              piece.reference.vertices.end());
   for (const auto& [a, b, c] : piece.reference.triangles)
     reference_.triangles.push_back({a + first_vertex, b + first_vertex, c + first_vertex});
-  size_ = std::max(size_, surface::bounding_box(piece.reference.vertices).size());
+  size_ = std::max(size_, bounding_box(piece.reference.vertices).size());
   name_ += name_.empty() ? piece.name : ", " + piece.name;
 }
 

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
+#include "core/bounding_box.hpp"
 #include "core/error.hpp"
 #include "shell/edges.hpp"
 
@@ -41,7 +42,7 @@ constexpr double in_plane = 1e-6;
 
 double size_of(const Context& c)
 {
-  return surface::bounding_box(c.mesh.vertices).size();
+  return bounding_box(c.mesh.vertices).size();
 }
 
 void check_vertices(const Context& c)

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/bounding_box.hpp"
 #include "core/error.hpp"
 #include "simulation/build_mesh.hpp"
 #include "simulation/check_flow.hpp"
@@ -51,7 +52,7 @@ Touched planes_of_edges(const surface::TriangleMesh& mesh, const std::string& ow
   Touched touched{};
   if (edges.empty())
     return touched;
-  const double rounding = 1e-9 * surface::bounding_box(mesh.vertices).size();
+  const double rounding = 1e-9 * bounding_box(mesh.vertices).size();
   for (int axis = 0; axis < 3; ++axis)
     if (std::all_of(edges.begin(), edges.end(), [&](const surface::TriangleEdge& edge) {
           const auto [a, b] = surface::edge_vertices(mesh.triangles[edge.triangle], edge.edge);
@@ -102,7 +103,7 @@ surface::Solid enclosed(const surface::TriangleMesh& mesh, const config::Case& a
     if (low && high)
       continue;
     const double plane =
-        low || high ? coordinate(all.grid.axes[axis], high ? 1 : 0) : surface::bounding_box(mesh.vertices).low[axis];
+        low || high ? coordinate(all.grid.axes[axis], high ? 1 : 0) : bounding_box(mesh.vertices).low[axis];
     return surface::solid(mesh, {axis, plane});
   }
   fail_input("{}: its edges lie on all six sides of the grid: what is inside cannot be told", owner);
@@ -129,7 +130,7 @@ RigidBodyProperties properties_of(const config::MotionOptions& motion, const Rig
                            .gravity = motion.gravity,
                            .velocity = motion.velocity,
                            .spin = motion.spin,
-                           .length = surface::bounding_box(sheet.mesh.vertices).size()};
+                           .length = bounding_box(sheet.mesh.vertices).size()};
   const double density = motion.density ? *motion.density : solid ? *motion.mass / solid->volume : 0.0;
   body.mass = motion.mass ? *motion.mass : density * solid->volume;
   if (motion.inertia) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/bounding_box.hpp"
 #include "core/error.hpp"
 #include "grid/locate.hpp"
 #include "simulation/rake_record.hpp"
@@ -28,7 +29,7 @@ void check_section(const config::SectionOptions& section, const SheetRange& shee
     low = std::min(low, s);
     high = std::max(high, s);
   }
-  if (high - low <= round_off * surface::bounding_box(sheet.reference.vertices).extent().norm())
+  if (high - low <= round_off * bounding_box(sheet.reference.vertices).extent().norm())
     fail_input("section '{}': '{}' has no width along axis ({:.6g}, {:.6g}, {:.6g})", section.name, sheet.name,
                section.axis[0], section.axis[1], section.axis[2]);
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/bounding_box.hpp"
 #include "grid/quality.hpp"
 #include "shell/section.hpp"
 #include "simulation/build.hpp"
@@ -57,8 +58,7 @@ double sheet_length(const Structure& structure)
     return 0.0;
   const SheetRange& sheet = structure.sheets().front();
   const std::vector<Vec3> positions = structure.accepted_positions(0.0);
-  const surface::BoundingBox box =
-      surface::bounding_box(std::span(positions).subspan(sheet.first_vertex, sheet.vertices));
+  const BoundingBox box = bounding_box(std::span(positions).subspan(sheet.first_vertex, sheet.vertices));
   return box.extent().maxCoeff();
 }
 

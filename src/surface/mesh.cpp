@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "core/error.hpp"
-
 namespace luff::surface {
 
 namespace {
@@ -23,17 +21,6 @@ Vec3 area_vector_of(const TriangleMesh& mesh, int triangle)
 }
 
 }  // namespace
-
-BoundingBox bounding_box(std::span<const Vec3> points)
-{
-  ensure(!points.empty(), "bounding box of no points");
-  BoundingBox box{points[0], points[0]};
-  for (const Vec3& p : points) {
-    box.low = box.low.cwiseMin(p);
-    box.high = box.high.cwiseMax(p);
-  }
-  return box;
-}
 
 double area(const TriangleMesh& mesh, int triangle)
 {

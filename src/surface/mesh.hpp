@@ -21,19 +21,6 @@ struct TriangleMesh {
   int n_triangles() const { return static_cast<int>(triangles.size()); }
 };
 
-/// Axis-aligned box.
-struct BoundingBox {
-  Vec3 low;
-  Vec3 high;
-
-  Vec3 extent() const { return high - low; }
-  /// Length of the diagonal [L]: the size that every relative tolerance refers to.
-  double size() const { return extent().norm(); }
-};
-
-/// Smallest box around at least one point.
-BoundingBox bounding_box(std::span<const Vec3> points);
-
 /// Half the cross product of two sides: normal times area [L^2].
 inline Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c)
 {

@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "core/bounding_box.hpp"
 #include "surface/orientation.hpp"
 #include "surface/point_index.hpp"
 #include "surface/validation.hpp"

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <string>
 
+#include "core/bounding_box.hpp"
 #include "core/error.hpp"
 #include "core/nearest.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/solid.hpp"
+#include "core/bounding_box.hpp"
 
 #include <numeric>
 #include <utility>

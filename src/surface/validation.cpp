@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/bounding_box.hpp"
 #include "core/error.hpp"
 #include "surface/orientation.hpp"
 #include "surface/point_index.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/bounding_box.hpp"
 #include "shell/shell.hpp"
 #include "support/linear_shell.hpp"
 #include "support/shells.hpp"
@@ -54,7 +55,7 @@ TriangleMesh bent(const Discretisation& d, double length, double width, Shape sh
 /// Vertices in the plane X[axis] = at.
 inline std::vector<int> plane(const TriangleMesh& mesh, int axis, double at)
 {
-  const double slack = 1e-9 * surface::bounding_box(mesh.vertices).size();
+  const double slack = 1e-9 * bounding_box(mesh.vertices).size();
   return vertices_where(mesh, [=](const Vec3& X) { return std::abs(X[axis] - at) < slack; });
 }
 

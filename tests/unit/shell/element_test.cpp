@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "core/bounding_box.hpp"
 #include "shell/shell.hpp"
 #include "support/shells.hpp"
 
@@ -47,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(OfAnyMake, ShellElement, testing::ValuesIn(makes),
 Shell shell_with_every_edge(const Properties& properties)
 {
   const surface::TriangleMesh mesh = curved_sheet();
-  const double end = surface::bounding_box(mesh.vertices).high.x();
+  const double end = bounding_box(mesh.vertices).high.x();
   return Shell(mesh, properties,
                {{.kind = SupportKind::Clamped, .vertices = vertices_where(mesh, [](auto& X) { return X.x() == 0; })},
                 {.kind = SupportKind::Symmetry,

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "core/bounding_box.hpp"
 #include "shell/fibres.hpp"
 #include "shell/shell.hpp"
 #include "shell/statics.hpp"
@@ -35,7 +36,7 @@ Piece piece_with_every_edge(const Material& material, int thickness_points)
 {
   Piece piece = curved_piece(material, thickness_points);
   const surface::TriangleMesh& mesh = piece.reference;
-  const double end = surface::bounding_box(mesh.vertices).high.x();
+  const double end = bounding_box(mesh.vertices).high.x();
   piece.supports = {
       {.kind = SupportKind::Clamped, .vertices = vertices_where(mesh, [](auto& X) { return X.x() == 0; })},
       {.kind = SupportKind::Symmetry,

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "core/bounding_box.hpp"
 #include "core/error.hpp"
 #include "shell/statics.hpp"
 #include "support/linear_shell.hpp"
@@ -23,7 +24,7 @@ std::vector<int> at_x(const surface::TriangleMesh& mesh, double x)
 double end_deflection(const std::vector<Support>& supports, const surface::TriangleMesh& mesh)
 {
   const Shell strip(mesh, strip_properties, supports);
-  const double width = surface::bounding_box(mesh.vertices).extent().y();
+  const double width = bounding_box(mesh.vertices).extent().y();
   const double EI = 1e6 * 1e-6 / 12 * width;
   const std::vector<int> end = at_x(mesh, 1);
   const Loads loads(strip, {PointForce{end, [=](const Vec3&, double) { return Vec3(0, 0, 3 * EI); }}});

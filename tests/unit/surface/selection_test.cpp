@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/bounding_box.hpp"
 #include "core/error.hpp"
 #include "surface/generators.hpp"
 #include "surface/selection.hpp"
