@@ -21,13 +21,9 @@ LinkForms::LinkForms(const CutLinks& links, const CutCell& cut, int axis)
 CutAxis cut_axis(const CutLinks& links, const CutCell& cut, int axis, const StageTime& time,
                  const std::array<bool, 2>& as_cut)
 {
-  const CellAxis& whole = cut.along[axis];
-  CutAxis result;
-  result.distance = whole.distance;
-  result.area_ratio = whole.area_ratio;
-  result.width = whole.width;
+  CutAxis result{cut.along[axis]};
   for (int side = 0; side < 2; ++side) {
-    result.length[side] = result.distance[side];
+    result.length[side] = result.whole.distance[side];
     if (!as_cut[side])
       continue;
     const CutFace& face = links.faces()[cut.face[2 * axis + side]];
@@ -36,13 +32,8 @@ CutAxis cut_axis(const CutLinks& links, const CutCell& cut, int axis, const Stag
     result.theta[side] = side == 1 ? theta : 1.0 - theta;
     result.length[side] *= std::max(result.theta[side], least_theta(face));
   }
-  result.span = result.any_cut() ? 0.5 * (result.length[0] + result.length[1]) : result.width;
+  result.span = result.any_cut() ? 0.5 * (result.length[0] + result.length[1]) : result.whole.width;
   return result;
-}
-
-CutAxis cut_axis(const CutLinks& links, const CutCell& cut, int axis, const StageTime& time)
-{
-  return cut_axis(links, cut, axis, time, {cut.face[2 * axis] != open_link, cut.face[2 * axis + 1] != open_link});
 }
 
 std::array<Vec3, 2> velocities_beside(const CutLinks& links, const CutCell& cut, int axis, const CutAxis& along,

@@ -15,12 +15,10 @@ namespace luff::immersed {
 
 /// Side 0 below, side 1 above.
 struct CutAxis {
+  const CellAxis& whole;                         ///< as if no link were cut
   std::array<int, 2> hit{open_link, open_link};  ///< the hit that the cell sees on each link
   std::array<double, 2> theta{1.0, 1.0};         ///< distance of the sheet over that of the other centre; 1: open
-  std::array<double, 2> distance{};              ///< d of the whole link
   std::array<double, 2> length{};                ///< h_k, to the neighbour or to the sheet, clipped by least_theta()
-  std::array<double, 2> area_ratio{1.0, 1.0};    ///< |S| at the centre over |S| of the face
-  double width = 0.0;                            ///< h of the cell
   double span = 0.0;                             ///< H_d
 
   [[nodiscard]] bool cut(int side) const { return hit[side] != open_link; }
@@ -28,13 +26,13 @@ struct CutAxis {
   /// v_k = nu/(h_k H_d), times the area of the face over that at the centre
   [[nodiscard]] double exchange(int side, double viscosity) const
   {
-    return viscosity / (length[side] * span * area_ratio[side]);
+    return viscosity / (length[side] * span * whole.area_ratio[side]);
   }
   /// Difference of a field along the axis per cell, from the values beside it: its own value is left out.
   template <class Value>
   [[nodiscard]] Value difference(const Value& low, const Value& high) const
   {
-    return (high - low) / (length[0] / distance[0] + length[1] / distance[1]);
+    return (high - low) / (length[0] / whole.distance[0] + length[1] / whole.distance[1]);
   }
 };
 
@@ -68,8 +66,6 @@ class LinkForms {
 /// The links in one form, with the sheet where it is at a time of the step.
 [[nodiscard]] CutAxis cut_axis(const CutLinks& links, const CutCell& cut, int axis, const StageTime& time,
                                const std::array<bool, 2>& as_cut);
-/// In the form in which every cut link counts as cut.
-[[nodiscard]] CutAxis cut_axis(const CutLinks& links, const CutCell& cut, int axis, const StageTime& time);
 
 /// The velocities beside a cut cell along an axis: the neighbour's, or that of the sheet.
 [[nodiscard]] std::array<Vec3, 2> velocities_beside(const CutLinks& links, const CutCell& cut, int axis,

@@ -140,10 +140,10 @@ void recover_velocity(const grid::Grid& grid, const CutLinks& links, const View3
         for (int side = 0; side < 2; ++side) {
           if (form.cut[side]) {
             value[side] = links.velocity(along.hit[side], time).dot(normal[side]);
-            distance[side] = std::max(along.theta[side], 0.0) * along.distance[side];
+            distance[side] = std::max(along.theta[side], 0.0) * along.whole.distance[side];
           } else {
             value[side] = through(cut, axis, side);
-            distance[side] = 0.5 * along.width;
+            distance[side] = 0.5 * along.whole.width;
           }
         }
         flux[axis] += form.weight * between(value, distance);

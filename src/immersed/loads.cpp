@@ -44,10 +44,10 @@ Vec3 wall_shear_of(const CutAxis& along, const CutLinks& links, const LoadFields
   const Vec3 shear = fields.viscosity / along.length[side] * (fields.u_star[view.n] - u_b);
   if (along.cut(1 - side))
     return shear;
-  const double areas = along.area_ratio[side] / along.area_ratio[1 - side];
+  const double areas = along.whole.area_ratio[side] / along.whole.area_ratio[1 - side];
   const Vec3 behind =
       areas * fields.viscosity / along.length[1 - side] * (at(fields.u, view.behind()) - at(fields.u, view.cut.cell));
-  return shear + (along.width / along.span - 1.0) * (shear - behind);
+  return shear + (along.whole.width / along.span - 1.0) * (shear - behind);
 }
 
 /// The mean over the forms in which the hit's own link is cut.
